@@ -1,0 +1,157 @@
+//! What a contact law sees of two bodies that touch, and what it answers.
+
+use glam::{DMat3, DVec3};
+
+use crate::material::MaterialId;
+
+/// One of the two bodies of a contact: a sphere, or a wall (infinite radius and mass).
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Body {
+    /// Radius in m; infinite for a wall.
+    pub radius: f64,
+    /// Mass in kg; infinite for a wall.
+    pub mass: f64,
+    /// Number of its material.
+    pub material: MaterialId,
+}
+
+impl Body {
+    /// A sphere of `radius` (m) and `mass` (kg).
+    #[must_use]
+    pub const fn sphere(radius: f64, mass: f64, material: MaterialId) -> Self {
+        Self {
+            radius,
+            mass,
+            material,
+        }
+    }
+
+    /// A wall of the container.
+    #[must_use]
+    pub const fn wall(material: MaterialId) -> Self {
+        Self::sphere(f64::INFINITY, f64::INFINITY, material)
+    }
+}
+
+/// The two bodies that a law prepares its coefficients for. The first is always a sphere, the
+/// second a sphere or a wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Bodies {
+    /// The sphere that the contact normal points to.
+    pub first: Body,
+    /// The other sphere, or the wall.
+    pub second: Body,
+}
+
+impl Bodies {
+    /// `first` touching `second`.
+    #[must_use]
+    pub const fn new(first: Body, second: Body) -> Self {
+        Self { first, second }
+    }
+
+    /// Whether the second body is a wall.
+    #[must_use]
+    pub fn at_wall(&self) -> bool {
+        self.second.radius.is_infinite()
+    }
+
+    /// Effective mass m* = m1 m2/(m1 + m2) in kg; the sphere's own mass at a wall.
+    #[must_use]
+    pub fn effective_mass(&self) -> f64 {
+        1.0 / (1.0 / self.first.mass + 1.0 / self.second.mass)
+    }
+
+    /// Effective radius r* = r1 r2/(r1 + r2) in m; the sphere's own radius at a wall.
+    #[must_use]
+    pub fn effective_radius(&self) -> f64 {
+        1.0 / (1.0 / self.first.radius + 1.0 / self.second.radius)
+    }
+}
+
+/// Two bodies that touch, at one instant.
+///
+/// Forces and velocities are those of the *first* body relative to the *second*.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Contact {
+    /// Unit vector from the second body to the first: along it a positive normal force pushes the
+    /// first body away.
+    pub normal: DVec3,
+    /// Overlap d in m, positive when touching.
+    pub overlap: f64,
+    /// Velocity of the first body's surface relative to the second's at the point of contact, spin
+    /// included, in m/s.
+    pub velocity: DVec3,
+    /// The same at the start of the step, before any impulse of the step was applied, in m/s.
+    /// Laws that are evaluated one after the other see it differ from `velocity`.
+    pub velocity_before: DVec3,
+    /// Angular velocities of the two bodies in rad/s; zero for a wall.
+    pub spins: [DVec3; 2],
+    /// Time since the contact's memory was advanced, in s. For an impulse this is the length of the
+    /// step over which its force is held.
+    pub elapsed: f64,
+    /// Velocity that the second body gains per unit impulse, in 1/kg: the identity over its mass
+    /// for a sphere, what the mount says for a wall, zero for a wall that does not yield. Laws that
+    /// are evaluated at every stage see zero.
+    pub mobility: DMat3,
+}
+
+impl Contact {
+    /// A contact with its normal (unit, towards the first body), overlap (m) and relative surface
+    /// velocity (m/s); the rest zero, to be set field by field. For testing a law by itself.
+    #[must_use]
+    pub const fn new(normal: DVec3, overlap: f64, velocity: DVec3) -> Self {
+        Self {
+            normal,
+            overlap,
+            velocity,
+            velocity_before: velocity,
+            spins: [DVec3::ZERO; 2],
+            elapsed: 0.0,
+            mobility: DMat3::ZERO,
+        }
+    }
+
+    /// Rate of overlap d' in m/s: positive while the bodies approach.
+    #[must_use]
+    #[inline]
+    pub fn approach_speed(&self) -> f64 {
+        -self.velocity.dot(self.normal)
+    }
+
+    /// Tangential part of the relative surface velocity, in m/s.
+    #[must_use]
+    #[inline]
+    pub fn slip(&self) -> DVec3 {
+        self.velocity + self.approach_speed() * self.normal
+    }
+}
+
+/// The force of a contact on its first body; the second body feels the opposite.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct ContactForce {
+    /// Along the normal, in N: positive pushes the bodies apart.
+    pub normal: f64,
+    /// In the tangent plane, at the point of contact, in N. It turns both bodies.
+    pub tangential: DVec3,
+    /// A couple besides (rolling resistance), in N m: on the first body, and reversed on the
+    /// second.
+    pub couple: DVec3,
+}
+
+impl ContactForce {
+    /// A force without a couple.
+    #[must_use]
+    #[inline]
+    pub const fn new(normal: f64, tangential: DVec3) -> Self {
+        Self {
+            normal,
+            tangential,
+            couple: DVec3::ZERO,
+        }
+    }
+}

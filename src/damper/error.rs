@@ -1,0 +1,169 @@
+use glam::DVec3;
+
+use crate::detector::DetectorError;
+use crate::error::ValueError;
+use crate::law::LawError;
+
+/// Why a damper could not be built.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BuildError {
+    /// A number outside its range.
+    #[error(transparent)]
+    Value(#[from] ValueError),
+    /// The law refused two bodies of the bed.
+    #[error(transparent)]
+    Law(#[from] LawError),
+    /// The detector cannot serve the bed.
+    #[error(transparent)]
+    Detector(#[from] DetectorError),
+    /// A number of a particle is outside its range.
+    #[error("particle {particle}: {error}")]
+    Particle {
+        /// Number of the particle.
+        particle: usize,
+        /// What is wrong with it.
+        error: ValueError,
+    },
+    /// A particle overlaps another by more than the builder allows.
+    #[error("particles {first} and {second} overlap by {overlap} m; at most {limit} m is allowed")]
+    InitialOverlap {
+        /// Number of the first particle.
+        first: usize,
+        /// Number of the second particle.
+        second: usize,
+        /// Overlap in m.
+        overlap: f64,
+        /// Largest overlap allowed in m.
+        limit: f64,
+    },
+    /// A particle reaches into a wall by more than the builder allows, or stands outside.
+    #[error(
+        "particle {particle} at {position} overlaps wall {wall} by {overlap} m; at most {limit} m is allowed"
+    )]
+    OutsideCavity {
+        /// Number of the particle.
+        particle: usize,
+        /// Its position in the container's frame in m.
+        position: DVec3,
+        /// Number of the wall.
+        wall: u32,
+        /// Overlap in m.
+        overlap: f64,
+        /// Largest overlap allowed in m.
+        limit: f64,
+    },
+    /// A particle is too large for its cavity.
+    #[error(
+        "particle {particle} of diameter {diameter} m does not fit into a cavity {room} m across"
+    )]
+    TooLarge {
+        /// Number of the particle.
+        particle: usize,
+        /// Its diameter in m.
+        diameter: f64,
+        /// The cavity's least extent in m.
+        room: f64,
+    },
+    /// A particle, a velocity, gravity or the mount leaves the plane of a planar cavity.
+    #[error("{quantity} {value} leaves the plane z = 0 of a planar cavity")]
+    OutOfPlane {
+        /// What leaves the plane.
+        quantity: &'static str,
+        /// Its offending value.
+        value: DVec3,
+    },
+    /// A particle in a cavity that the damper does not have.
+    #[error("particle {particle} is in cavity {cavity}, and there are {cavities}")]
+    UnknownCavity {
+        /// Number of the particle.
+        particle: usize,
+        /// The cavity asked for.
+        cavity: u32,
+        /// How many cavities there are.
+        cavities: usize,
+    },
+    /// The time step is longer than the law can bear.
+    #[error("time step {time_step} s is longer than the contact law bears: at most {limit} s")]
+    TimeStepTooLong {
+        /// The step asked for in s.
+        time_step: f64,
+        /// The longest step in s.
+        limit: f64,
+    },
+    /// No time step was given, and the law sets no limit to derive one from.
+    #[error("no time step was given, and the contact law does not limit it")]
+    NoTimeStep,
+    /// More particles than 32-bit numbers can count.
+    #[error("{count} particles are more than the limit of {limit}")]
+    TooManyParticles {
+        /// How many were given.
+        count: usize,
+        /// How many are allowed.
+        limit: usize,
+    },
+}
+
+/// Why a step could not be taken. The damper's state is then undefined until a snapshot is restored.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StepError {
+    /// A particle's position, velocity or force is no longer finite.
+    #[error("particle {particle} is not finite: position {position}, acceleration {acceleration}")]
+    NotFinite {
+        /// Number of the particle.
+        particle: usize,
+        /// Its position in the fixed frame in m.
+        position: DVec3,
+        /// Its acceleration in m/s^2.
+        acceleration: DVec3,
+    },
+    /// The centre of a particle has passed a wall.
+    #[error("particle {particle} has left the cavity through wall {wall}, at {position}")]
+    Escaped {
+        /// Number of the particle.
+        particle: usize,
+        /// Number of the wall.
+        wall: u32,
+        /// Its position in the container's frame in m.
+        position: DVec3,
+    },
+    /// Two bodies overlap by more than the stated bound.
+    #[error("particle {particle} overlaps {other} by {overlap} m; the limit is {limit} m")]
+    Overlap {
+        /// Number of the particle.
+        particle: usize,
+        /// What it overlaps.
+        other: crate::damper::Partner,
+        /// Overlap in m.
+        overlap: f64,
+        /// The bound in m.
+        limit: f64,
+    },
+    /// The container's motion is no longer finite.
+    #[error("the motion of the container of cavity {cavity} is not finite: {position}, {velocity}")]
+    Container {
+        /// Number of the cavity.
+        cavity: usize,
+        /// Position in m.
+        position: DVec3,
+        /// Velocity in m/s.
+        velocity: DVec3,
+    },
+    /// The detector proposed a pair that does not exist.
+    #[error("the detector proposed the pair {first}, {second} in a bed of {particles}")]
+    InvalidPair {
+        /// The lower number.
+        first: u32,
+        /// The higher number.
+        second: u32,
+        /// How many particles there are.
+        particles: usize,
+    },
+    /// The law refused two bodies that met for the first time.
+    #[error(transparent)]
+    Law(#[from] LawError),
+    /// A number that the host handed in is outside its range.
+    #[error(transparent)]
+    Value(#[from] ValueError),
+}

@@ -1,0 +1,120 @@
+//! Time integration.
+
+use std::ops::{Add, Mul, Sub};
+
+use glam::DVec3;
+
+use crate::damper::StepError;
+
+mod runge_kutta;
+mod verlet;
+
+pub use runge_kutta::RungeKutta4;
+pub use verlet::VelocityVerlet;
+
+/// A coordinate that integrators can do arithmetic with: a vector, or a mount's scalar.
+pub trait Coordinate:
+    Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self>
+{
+}
+
+impl Coordinate for f64 {}
+impl Coordinate for DVec3 {}
+
+/// One group of coordinates: their values, rates and accelerations, in columns of equal length.
+#[derive(Debug)]
+pub struct Columns<'a, T> {
+    /// Positions. Empty for coordinates of which only the rate matters (the spin of spheres).
+    pub position: &'a mut [T],
+    /// Velocities.
+    pub velocity: &'a mut [T],
+    /// Accelerations, as the last evaluation left them.
+    pub acceleration: &'a [T],
+}
+
+/// Everything that moves.
+#[derive(Debug)]
+pub struct Motions<'a> {
+    /// Centres of the particles, fixed frame: m, m/s, m/s^2.
+    pub translation: Columns<'a, DVec3>,
+    /// Angular velocity (rad/s) and acceleration of the particles; no positions.
+    pub rotation: Columns<'a, DVec3>,
+    /// Coordinates of the mount.
+    pub mount: Columns<'a, f64>,
+}
+
+/// Which evaluation of a step is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// A trial on the way.
+    Trial,
+    /// The one at the end of the step: positions are final, contacts advance their memory.
+    End,
+}
+
+/// A mechanical system as an integrator sees it: columns to move, and a way to ask for
+/// accelerations.
+pub trait System {
+    /// The columns.
+    fn motions(&mut self) -> Motions<'_>;
+
+    /// Sets the accelerations to those of the current positions and velocities, `elapsed` seconds
+    /// after the start of the step.
+    ///
+    /// # Errors
+    /// If the state has become unusable; the step has to be given up.
+    fn evaluate(&mut self, elapsed: f64, stage: Stage) -> Result<(), StepError>;
+}
+
+/// Takes a [`System`] from one step to the next.
+///
+/// # Using
+/// [`VelocityVerlet`] is the default, one evaluation a step; [`RungeKutta4`] is the paper's, four.
+///
+/// # Implementing
+/// 1. On entry the accelerations are those of the current state.
+/// 2. Call [`System::evaluate`] any number of times with [`Stage::Trial`], and then exactly once with
+///    [`Stage::End`] at `time_step`, with the final positions. Velocities may still be corrected
+///    after that.
+/// 3. The accelerations that the last evaluation left serve as the next step's first.
+/// 4. Keep scratch in the integrator, and nothing else: a step may follow a restored state.
+///
+/// Symplectic Euler, complete:
+/// ```
+/// use particle_damper::integrator::{Columns, Coordinate, Integrator, Motions, Stage, System};
+/// use particle_damper::StepError;
+///
+/// struct SymplecticEuler;
+///
+/// fn push<T: Coordinate>(columns: Columns<'_, T>, dt: f64) {
+///     for (v, a) in columns.velocity.iter_mut().zip(columns.acceleration) {
+///         *v = *v + *a * dt;
+///     }
+///     for (x, v) in columns.position.iter_mut().zip(columns.velocity) {
+///         *x = *x + *v * dt;
+///     }
+/// }
+///
+/// impl Integrator for SymplecticEuler {
+///     fn step<S: System>(&mut self, system: &mut S, time_step: f64) -> Result<(), StepError> {
+///         let Motions { translation, rotation, mount, .. } = system.motions();
+///         push(translation, time_step);
+///         push(rotation, time_step);
+///         push(mount, time_step);
+///         system.evaluate(time_step, Stage::End)
+///     }
+/// }
+/// ```
+pub trait Integrator {
+    /// Moves `system` on by `time_step` seconds.
+    ///
+    /// # Errors
+    /// Whatever an evaluation reports.
+    fn step<S: System>(&mut self, system: &mut S, time_step: f64) -> Result<(), StepError>;
+}
+
+impl<I: Integrator + ?Sized> Integrator for &mut I {
+    fn step<S: System>(&mut self, system: &mut S, time_step: f64) -> Result<(), StepError> {
+        (**self).step(system, time_step)
+    }
+}

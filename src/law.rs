@@ -1,0 +1,172 @@
+//! Contact laws: the force between two bodies that touch.
+
+use crate::contact::{Bodies, Contact, ContactForce};
+use crate::error::ValueError;
+use crate::material::MaterialId;
+
+/// When a law may be evaluated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Evaluation {
+    /// A stiff force: a function of the instant, evaluated at every stage of an integrator.
+    EveryStage,
+    /// An impulse, spread over one step: evaluated once, at the start of the step, for all contacts
+    /// from the same velocities, and held.
+    Simultaneous,
+    /// An impulse as above, but for one contact after the other: each sees the velocities that the
+    /// ones before it left. Pairs come first, walls last.
+    Sequential,
+}
+
+/// Why a law refused a pair of bodies.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LawError {
+    /// A body is of a material that the law's table does not hold.
+    #[error("the contact law knows no material number {}", .0.0)]
+    UnknownMaterial(MaterialId),
+    /// A number that the law works with is outside its range.
+    #[error(transparent)]
+    Value(#[from] ValueError),
+}
+
+/// The force between two bodies that touch.
+///
+/// # Using
+/// [`HertzTsuji`](crate::HertzTsuji) is the strict law of the paper,
+/// [`RestitutionImpulse`](crate::RestitutionImpulse) the one that allows a coarser step. Pass one to
+/// [`Builder::law`](crate::Builder::law).
+///
+/// # Implementing
+/// 1. [`coefficients`](Self::coefficients) is called for every combination of radius, mass and
+///    material that can meet, before the first step. Do there whatever does not depend on the
+///    motion, and refuse there what cannot be right.
+/// 2. [`force`](Self::force) is called for touching bodies alone (overlap > 0). It answers with the
+///    force on the first body; the engine turns it into opposite forces and into torques. It must
+///    be a function of its arguments: same arguments, same bits.
+/// 3. A law whose contacts have a past names it as [`Memory`](Self::Memory). A contact starts with
+///    the default; [`advance`](Self::advance) is called once per accepted step for each contact
+///    that touches, and a contact that separates forgets. A law without memory uses `()` and pays
+///    nothing.
+/// 4. An impulse law says so in [`evaluation`](Self::evaluation) and answers with the impulse divided
+///    by [`Contact::elapsed`] (the paper's Eq. 12).
+/// 5. [`time_step_limit`](Self::time_step_limit) is the longest step that the law can bear; a builder
+///    refuses a longer one.
+///
+/// A linear spring and dashpot, complete:
+/// ```
+/// use particle_damper::{Bodies, Contact, ContactForce, ContactLaw, LawError};
+/// use glam::DVec3;
+///
+/// struct SpringDashpot {
+///     stiffness: f64, // N/m
+///     damping: f64,   // N s/m
+/// }
+///
+/// impl ContactLaw for SpringDashpot {
+///     type Coefficients = f64; // longest step, s
+///     type Memory = ();
+///
+///     fn coefficients(&self, bodies: &Bodies) -> Result<f64, LawError> {
+///         let half_period = std::f64::consts::PI * (bodies.effective_mass() / self.stiffness).sqrt();
+///         Ok(half_period / 5.0)
+///     }
+///     fn force(&self, _: &f64, contact: &Contact, _: &()) -> ContactForce {
+///         let normal = self.stiffness * contact.overlap + self.damping * contact.approach_speed();
+///         ContactForce::new(normal.max(0.0), DVec3::ZERO)
+///     }
+///     fn time_step_limit(&self, longest: &f64) -> f64 {
+///         *longest
+///     }
+/// }
+/// ```
+pub trait ContactLaw {
+    /// What the law prepares for two bodies that can meet.
+    type Coefficients: Copy + std::fmt::Debug + Send + Sync;
+
+    /// What a contact remembers from step to step; `()` for nothing.
+    type Memory: Copy + Default + std::fmt::Debug + PartialEq + Send + Sync;
+
+    /// Prepares for two bodies.
+    ///
+    /// # Errors
+    /// If the law has no answer for them: an unknown material, a number out of range.
+    fn coefficients(&self, bodies: &Bodies) -> Result<Self::Coefficients, LawError>;
+
+    /// The force on the first body of `contact`, in N and N m.
+    fn force(
+        &self,
+        coefficients: &Self::Coefficients,
+        contact: &Contact,
+        memory: &Self::Memory,
+    ) -> ContactForce;
+
+    /// What the contact remembers at the end of the step, from `memory` at its start and the
+    /// contact at its end.
+    #[inline]
+    fn advance(
+        &self,
+        _coefficients: &Self::Coefficients,
+        _contact: &Contact,
+        memory: &Self::Memory,
+    ) -> Self::Memory {
+        *memory
+    }
+
+    /// When the law may be evaluated.
+    #[inline]
+    fn evaluation(&self) -> Evaluation {
+        Evaluation::EveryStage
+    }
+
+    /// The longest time step in s that two bodies bear under this law.
+    fn time_step_limit(&self, _coefficients: &Self::Coefficients) -> f64 {
+        f64::INFINITY
+    }
+}
+
+macro_rules! forward_law {
+    ($reference:ty) => {
+        impl<L: ContactLaw + ?Sized> ContactLaw for $reference {
+            type Coefficients = L::Coefficients;
+            type Memory = L::Memory;
+
+            fn coefficients(&self, bodies: &Bodies) -> Result<Self::Coefficients, LawError> {
+                (**self).coefficients(bodies)
+            }
+
+            #[inline]
+            fn force(
+                &self,
+                coefficients: &Self::Coefficients,
+                contact: &Contact,
+                memory: &Self::Memory,
+            ) -> ContactForce {
+                (**self).force(coefficients, contact, memory)
+            }
+
+            #[inline]
+            fn advance(
+                &self,
+                coefficients: &Self::Coefficients,
+                contact: &Contact,
+                memory: &Self::Memory,
+            ) -> Self::Memory {
+                (**self).advance(coefficients, contact, memory)
+            }
+
+            #[inline]
+            fn evaluation(&self) -> Evaluation {
+                (**self).evaluation()
+            }
+
+            fn time_step_limit(&self, coefficients: &Self::Coefficients) -> f64 {
+                (**self).time_step_limit(coefficients)
+            }
+        }
+    };
+}
+
+forward_law!(&L);
+forward_law!(&mut L);
+forward_law!(Box<L>);

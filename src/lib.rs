@@ -1,0 +1,23 @@
+//! Particle impact dampers.
+
+pub mod cavity;
+mod contact;
+mod damper;
+pub mod detector;
+mod error;
+pub mod excitation;
+pub mod integrator;
+mod law;
+mod material;
+pub mod mount;
+mod particle;
+
+pub use glam;
+
+pub use contact::{Bodies, Body, Contact, ContactForce};
+pub use damper::{BuildError, Partner, StepError};
+pub use detector::{AllPairs, Bed, Detector, DetectorError, Pairs};
+pub use error::{Bound, ValueError};
+pub use law::{ContactLaw, Evaluation, LawError};
+pub use material::{Interaction, Material, MaterialId, Materials};
+pub use particle::Particle;

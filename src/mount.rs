@@ -1,0 +1,133 @@
+//! Mounts: what the container is fixed to, and how it moves.
+
+use glam::{DMat3, DVec3};
+
+mod driven;
+mod single_dof;
+
+pub use driven::{Driven, Prescribed};
+pub use single_dof::SingleDof;
+
+/// Position and velocity of a container (translation only), fixed frame.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Motion {
+    /// Position of the container's origin in m.
+    pub position: DVec3,
+    /// Velocity of the container in m/s.
+    pub velocity: DVec3,
+}
+
+/// What carries the containers: a structure with generalised coordinates of its own, solved together
+/// with the particles, or a prescribed motion (no coordinates).
+///
+/// # Using
+/// [`SingleDof`] is the oscillator of the paper's Eq. (1). [`Driven`] is moved by a host program, or
+/// by a function of time.
+///
+/// # Implementing
+/// 1. [`degrees`](Self::degrees) coordinates, in units of the mount's choice; slices passed in have
+///    that length. [`start`](Self::start) sets their initial values.
+/// 2. [`motion`](Self::motion) of container `cavity` is a function of time and coordinates. Containers
+///    translate; they do not turn.
+/// 3. [`accelerate`](Self::accelerate) solves the mount's equations of motion under `loads`, the
+///    forces (N) of the particles on each container. It is linear in the loads.
+/// 4. [`strike`](Self::strike) adds to the coordinates' velocities what an impulse (N s) on one
+///    container gives them, and [`mobility`](Self::mobility) is the same as a matrix: velocity of the
+///    container per unit impulse on it (1/kg). A prescribed motion keeps the defaults: nothing.
+///
+/// Two equal masses on a line, coupled by a spring, with a container on each:
+/// ```
+/// use glam::{DMat3, DVec3};
+/// use particle_damper::mount::{Motion, Mount};
+///
+/// struct Pair {
+///     mass: f64,
+///     stiffness: f64,
+/// }
+///
+/// impl Mount for Pair {
+///     fn degrees(&self) -> usize {
+///         2
+///     }
+///     fn motion(&self, _time: f64, x: &[f64], v: &[f64], cavity: usize) -> Motion {
+///         Motion { position: DVec3::X * x[cavity], velocity: DVec3::X * v[cavity] }
+///     }
+///     fn accelerate(&self, _time: f64, x: &[f64], _v: &[f64], loads: &[DVec3], a: &mut [f64]) {
+///         let spring = self.stiffness * (x[1] - x[0]);
+///         a[0] = (loads[0].x + spring) / self.mass;
+///         a[1] = (loads[1].x - spring) / self.mass;
+///     }
+///     fn strike(&self, cavity: usize, impulse: DVec3, v: &mut [f64]) {
+///         v[cavity] += impulse.x / self.mass;
+///     }
+///     fn mobility(&self, _cavity: usize) -> DMat3 {
+///         DMat3::from_diagonal(DVec3::X / self.mass)
+///     }
+/// }
+/// ```
+pub trait Mount {
+    /// How many generalised coordinates the mount has.
+    fn degrees(&self) -> usize {
+        0
+    }
+
+    /// Initial coordinates and their velocities; zero unless set.
+    fn start(&self, _coordinates: &mut [f64], _velocities: &mut [f64]) {}
+
+    /// The motion of the container of a cavity.
+    fn motion(&self, time: f64, coordinates: &[f64], velocities: &[f64], cavity: usize) -> Motion;
+
+    /// Sets `accelerations` from the mount's equations of motion under `loads` (N, one force per
+    /// cavity, on the container).
+    fn accelerate(
+        &self,
+        _time: f64,
+        _coordinates: &[f64],
+        _velocities: &[f64],
+        _loads: &[DVec3],
+        _accelerations: &mut [f64],
+    ) {
+    }
+
+    /// Adds to `velocities` what `impulse` (N s) on the container of a cavity gives them.
+    fn strike(&self, _cavity: usize, _impulse: DVec3, _velocities: &mut [f64]) {}
+
+    /// Velocity of the container of a cavity per unit impulse on it, in 1/kg.
+    fn mobility(&self, _cavity: usize) -> DMat3 {
+        DMat3::ZERO
+    }
+}
+
+impl<M: Mount + ?Sized> Mount for &M {
+    fn degrees(&self) -> usize {
+        (**self).degrees()
+    }
+
+    fn start(&self, coordinates: &mut [f64], velocities: &mut [f64]) {
+        (**self).start(coordinates, velocities);
+    }
+
+    fn motion(&self, time: f64, coordinates: &[f64], velocities: &[f64], cavity: usize) -> Motion {
+        (**self).motion(time, coordinates, velocities, cavity)
+    }
+
+    fn accelerate(
+        &self,
+        time: f64,
+        coordinates: &[f64],
+        velocities: &[f64],
+        loads: &[DVec3],
+        accelerations: &mut [f64],
+    ) {
+        (**self).accelerate(time, coordinates, velocities, loads, accelerations);
+    }
+
+    fn strike(&self, cavity: usize, impulse: DVec3, velocities: &mut [f64]) {
+        (**self).strike(cavity, impulse, velocities);
+    }
+
+    fn mobility(&self, cavity: usize) -> DMat3 {
+        (**self).mobility(cavity)
+    }
+}

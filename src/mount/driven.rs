@@ -1,0 +1,114 @@
+use super::{Motion, Mount};
+
+/// A container moved from outside: a host program hands in position and velocity at the end of each
+/// step ([`Damper::drive`](crate::Damper::drive)), and gets the reaction back. Within the step the
+/// container follows the cubic that has both motions at its ends.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Driven {
+    begin: f64,
+    duration: f64,
+    from: Motion,
+    to: Motion,
+}
+
+impl Driven {
+    /// A container that stays where `motion` puts it until it is driven.
+    #[must_use]
+    pub const fn at(motion: Motion) -> Self {
+        Self {
+            begin: 0.0,
+            duration: 0.0,
+            from: motion,
+            to: motion,
+        }
+    }
+
+    /// Heads for `to` at `begin + duration`, from where the container is to be now.
+    pub(crate) const fn head_for(&mut self, begin: f64, duration: f64, to: Motion) {
+        self.from = self.to;
+        self.begin = begin;
+        self.duration = duration;
+        self.to = to;
+    }
+}
+
+impl Mount for Driven {
+    #[inline]
+    fn motion(&self, time: f64, _x: &[f64], _v: &[f64], _cavity: usize) -> Motion {
+        if self.duration <= 0.0 {
+            return self.to;
+        }
+        let h = self.duration;
+        let s = ((time - self.begin) / h).clamp(0.0, 1.0);
+        let step = self.to.position - self.from.position;
+        // Cubic Hermite, written around the straight line so that a steady motion is exact.
+        let excess_from = self.from.velocity * h - step;
+        let excess_to = self.to.velocity * h - step;
+        let bend = excess_from * (s * (1.0 - s) * (1.0 - s)) - excess_to * (s * s * (1.0 - s));
+        let slope = excess_from * ((1.0 - s) * (1.0 - 3.0 * s)) - excess_to * (s * (2.0 - 3.0 * s));
+        Motion {
+            position: self.from.position + step * s + bend,
+            velocity: (step + slope) / h,
+        }
+    }
+}
+
+/// A container that follows a function of time.
+///
+/// ```
+/// use glam::DVec3;
+/// use particle_damper::mount::{Motion, Prescribed};
+///
+/// let (amplitude, omega) = (0.01, 37.7);
+/// let shaken = Prescribed(move |t: f64| Motion {
+///     position: DVec3::Y * amplitude * (omega * t).sin(),
+///     velocity: DVec3::Y * amplitude * omega * (omega * t).cos(),
+/// });
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct Prescribed<F>(pub F);
+
+impl<F: Fn(f64) -> Motion> Mount for Prescribed<F> {
+    #[inline]
+    fn motion(&self, time: f64, _x: &[f64], _v: &[f64], _cavity: usize) -> Motion {
+        (self.0)(time)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    #[test]
+    fn the_cubic_has_the_given_motions_at_its_ends_and_a_steady_one_between() {
+        let mut mount = Driven::default();
+        let to = Motion {
+            position: DVec3::new(0.1, 0.2, 0.0),
+            velocity: DVec3::new(-1.0, 3.0, 0.0),
+        };
+        mount.head_for(2.0, 0.5, to);
+        let end = mount.motion(2.5, &[], &[], 0);
+        assert!((end.position - to.position).length() < 1e-15);
+        assert!((end.velocity - to.velocity).length() < 1e-12);
+        assert_eq!(mount.motion(2.0, &[], &[], 0), Motion::default());
+
+        let steady = DVec3::X * 2.0;
+        let mut mount = Driven::at(Motion {
+            position: DVec3::ZERO,
+            velocity: steady,
+        });
+        mount.head_for(
+            0.0,
+            0.5,
+            Motion {
+                position: DVec3::X,
+                velocity: steady,
+            },
+        );
+        let middle = mount.motion(0.2, &[], &[], 0);
+        assert!((middle.position - DVec3::X * 0.4).length() < 1e-15);
+        assert!((middle.velocity - steady).length() < 1e-14);
+    }
+}
