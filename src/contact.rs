@@ -85,9 +85,9 @@ pub struct Contact {
     /// Velocity of the first body's surface relative to the second's at the point of contact, spin
     /// included, in m/s.
     pub velocity: DVec3,
-    /// The same at the start of the step, before any impulse of the step was applied, in m/s.
-    /// Laws that are evaluated one after the other see it differ from `velocity`.
-    pub velocity_before: DVec3,
+    /// What `velocity` becomes over the step by everything but contacts (gravity, and what moves
+    /// the container), in m/s. Differs from `velocity` for impulses at walls alone.
+    pub velocity_ahead: DVec3,
     /// Angular velocities of the two bodies in rad/s; zero for a wall.
     pub spins: [DVec3; 2],
     /// Time since the contact's memory was advanced, in s. For an impulse this is the length of the
@@ -108,7 +108,7 @@ impl Contact {
             normal,
             overlap,
             velocity,
-            velocity_before: velocity,
+            velocity_ahead: velocity,
             spins: [DVec3::ZERO; 2],
             elapsed: 0.0,
             mobility: DMat3::ZERO,

@@ -1,10 +1,38 @@
 //! The damper: a bed of particles in a container on a mount, stepped in time.
 
-mod error;
-
-pub use error::{BuildError, StepError};
-
 use std::fmt;
+
+use glam::DVec3;
+
+use crate::cavity::{Cavity, clearance};
+use crate::contact::Body;
+use crate::detector::Detector;
+use crate::error::Bound;
+use crate::integrator::{Integrator, VelocityVerlet};
+use crate::law::{ContactLaw, Evaluation};
+use crate::mount::{Driven, Motion, Mount};
+use crate::observer::Observer;
+use crate::particle::Particle;
+
+mod block;
+mod builder;
+mod candidates;
+mod clock;
+mod coefficients;
+mod engine;
+mod error;
+mod impulse;
+mod particles;
+mod scene;
+mod snapshot;
+
+pub use builder::Builder;
+pub use error::{BuildError, StepError};
+pub use scene::WallLoad;
+pub use snapshot::{RestoreError, Snapshot};
+
+use clock::Clock;
+use engine::{Engine, Step};
 
 /// What a particle touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,4 +50,306 @@ impl fmt::Display for Partner {
             Self::Wall(number) => write!(f, "wall {number}"),
         }
     }
+}
+
+/// What the particles do to a container.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Reaction {
+    /// Force on the container at the end of the step, in N; of an impulse law, the force that was
+    /// held over the step.
+    pub force: DVec3,
+    /// Impulse on the container over the step, in N s: exactly the momentum that the particles lost,
+    /// but for gravity.
+    pub impulse: DVec3,
+}
+
+/// A particle damper: particles in the cavity of a container that moves with its mount.
+///
+/// `C` is the cavity, `L` the contact law, `M` the mount, `D` the detector, `I` the integrator.
+/// [`Damper::builder`] makes one; the crate page shows the loop.
+#[derive(Debug, Clone)]
+pub struct Damper<C, L: ContactLaw, M, D, I = VelocityVerlet> {
+    engine: Engine<C, L, M, D>,
+    integrator: I,
+    clock: Clock,
+    time_step: f64,
+}
+
+impl<C, L, M, D, I> Damper<C, L, M, D, I>
+where
+    C: Cavity,
+    L: ContactLaw,
+    M: Mount,
+    D: Detector,
+    I: Integrator,
+{
+    /// Moves everything on by one time step.
+    ///
+    /// # Errors
+    /// If a particle or the container is no longer finite, a particle has left the cavity, or an
+    /// overlap is past its bound. The damper can then be [restored](Self::restore).
+    pub fn step(&mut self) -> Result<(), StepError> {
+        self.step_watched(&mut ())
+    }
+
+    /// Moves everything on by one time step under the eyes of `observer`.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn step_watched<O: Observer>(&mut self, observer: &mut O) -> Result<(), StepError> {
+        self.forget_impulses();
+        self.advance(self.time_step, observer)
+    }
+
+    /// Starts the sums of impulses on the containers afresh.
+    fn forget_impulses(&mut self) {
+        let degrees = self.engine.mount.degrees();
+        let state = &mut self.engine.mount_state;
+        state.position[degrees..].fill(0.0);
+        state.velocity[degrees..].fill(0.0);
+    }
+
+    fn advance<O: Observer>(&mut self, dt: f64, observer: &mut O) -> Result<(), StepError> {
+        let impulsive = self.engine.law.evaluation() != Evaluation::EveryStage;
+        if impulsive {
+            self.engine.strike(dt, observer)?;
+        }
+        let mut step = Step {
+            begin: self.clock.time(),
+            engine: &mut self.engine,
+            observer,
+            fresh: true,
+        };
+        self.integrator.step(&mut step, dt)?;
+        if !impulsive {
+            self.engine.stamp = self.engine.stamp.wrapping_add(1);
+        }
+        self.clock.advance(dt);
+        self.engine.time = self.clock.time();
+        Ok(())
+    }
+
+    /// Simulated time in s.
+    #[must_use]
+    pub const fn time(&self) -> f64 {
+        self.clock.time()
+    }
+
+    /// Length of a step in s.
+    #[must_use]
+    pub const fn time_step(&self) -> f64 {
+        self.time_step
+    }
+
+    /// How many particles there are.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.engine.particles.len()
+    }
+
+    /// Whether the container is empty.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The particle of a number, in the order in which they were given; positions are in the fixed
+    /// frame.
+    #[must_use]
+    pub fn particle(&self, number: usize) -> Option<Particle> {
+        let slot = *self.engine.particles.slot.get(number)? as usize;
+        let cavity = self.engine.cavity_of(slot) as u32;
+        Some(self.engine.particles.particle(slot, cavity))
+    }
+
+    /// The particles in the order of their numbers.
+    pub fn particles(&self) -> impl ExactSizeIterator<Item = Particle> {
+        self.engine.particles.slot.iter().map(|slot| {
+            let slot = *slot as usize;
+            let cavity = self.engine.cavity_of(slot) as u32;
+            self.engine.particles.particle(slot, cavity)
+        })
+    }
+
+    /// The mount.
+    #[must_use]
+    pub const fn mount(&self) -> &M {
+        &self.engine.mount
+    }
+
+    /// The contact law.
+    #[must_use]
+    pub const fn law(&self) -> &L {
+        &self.engine.law
+    }
+
+    /// The detector of a cavity.
+    #[must_use]
+    pub fn detector(&self, cavity: usize) -> Option<&D> {
+        self.engine.detectors.get(cavity)
+    }
+
+    /// The mount's generalised coordinates.
+    #[must_use]
+    pub fn coordinates(&self) -> &[f64] {
+        &self.engine.mount_state.position[..self.engine.mount.degrees()]
+    }
+
+    /// The rates of the mount's generalised coordinates.
+    #[must_use]
+    pub fn rates(&self) -> &[f64] {
+        &self.engine.mount_state.velocity[..self.engine.mount.degrees()]
+    }
+
+    /// Position and velocity of the container of a cavity.
+    #[must_use]
+    pub fn container(&self, cavity: usize) -> Option<Motion> {
+        let degrees = self.engine.mount.degrees();
+        let state = &self.engine.mount_state;
+        (cavity < self.engine.rooms.len()).then(|| {
+            self.engine.mount.motion(
+                self.time(),
+                &state.position[..degrees],
+                &state.velocity[..degrees],
+                cavity,
+            )
+        })
+    }
+
+    /// What the particles of a cavity did to its container over the last step.
+    #[must_use]
+    pub fn reaction(&self, cavity: usize) -> Option<Reaction> {
+        let first = self.engine.mount.degrees() + 3 * cavity;
+        let impulse = self.engine.mount_state.velocity.get(first..first + 3)?;
+        Some(Reaction {
+            force: *self.engine.loads.get(cavity)?,
+            impulse: DVec3::from_slice(impulse),
+        })
+    }
+
+    /// Load of the particles on a wall of a cavity at the end of the last step; of an impulse law,
+    /// over the step.
+    #[must_use]
+    pub fn wall_load(&self, cavity: usize, wall: u32) -> Option<WallLoad> {
+        let room = self.engine.rooms.get(cavity)?;
+        (wall < room.cavity.walls())
+            .then(|| self.engine.wall_loads[(room.first_wall + wall) as usize])
+    }
+
+    /// How many contacts there were when they were evaluated last, walls included.
+    #[must_use]
+    pub fn contacts(&self) -> usize {
+        self.engine.contacts()
+    }
+
+    /// The largest overlap in m when contacts were evaluated last.
+    #[must_use]
+    pub fn largest_overlap(&self) -> f64 {
+        let overlaps = self.engine.blocks.iter().map(|block| block.largest_overlap);
+        overlaps.fold(0.0, f64::max)
+    }
+
+    /// How many particles have their centre outside their cavity.
+    #[must_use]
+    pub fn outside(&self) -> usize {
+        (0..self.engine.rooms.len())
+            .filter_map(|cavity| Some((&self.engine.rooms[cavity], self.container(cavity)?)))
+            .map(|(room, container)| {
+                self.engine.particles.position[room.slots.clone()]
+                    .iter()
+                    .filter(|position| {
+                        clearance(&room.cavity, **position - container.position) < 0.0
+                    })
+                    .count()
+            })
+            .sum()
+    }
+
+    /// How often candidates have been listed anew.
+    #[must_use]
+    pub const fn detections(&self) -> u64 {
+        self.engine.detections
+    }
+
+    /// Kinetic energy of the particles in J, translation and spin.
+    #[must_use]
+    pub fn kinetic_energy(&self) -> f64 {
+        self.particles()
+            .map(|particle| particle.kinetic_energy())
+            .sum()
+    }
+
+    /// Momentum of the particles in kg m/s.
+    #[must_use]
+    pub fn momentum(&self) -> DVec3 {
+        self.particles()
+            .map(|particle| particle.velocity * particle.mass)
+            .sum()
+    }
+}
+
+impl<C, L, D, I> Damper<C, L, Driven, D, I>
+where
+    C: Cavity,
+    L: ContactLaw,
+    D: Detector,
+    I: Integrator,
+{
+    /// Moves the container to `end` within `interval` (s), in as many steps as it takes to stay
+    /// within the time step, and returns what the particles did to it: the force at the end, and the
+    /// impulse over the interval.
+    ///
+    /// # Errors
+    /// If the interval is not positive or the motion is not finite; else as [`step`](Self::step).
+    pub fn drive(&mut self, end: Motion, interval: f64) -> Result<Reaction, StepError> {
+        self.drive_watched(end, interval, &mut ())
+    }
+
+    /// As [`drive`](Self::drive), under the eyes of `observer`.
+    ///
+    /// # Errors
+    /// As [`drive`](Self::drive).
+    pub fn drive_watched<O: Observer>(
+        &mut self,
+        end: Motion,
+        interval: f64,
+        observer: &mut O,
+    ) -> Result<Reaction, StepError> {
+        Bound::Positive.check("interval (s)", interval)?;
+        if !(end.position.is_finite() && end.velocity.is_finite()) {
+            return Err(StepError::Container {
+                cavity: 0,
+                position: end.position,
+                velocity: end.velocity,
+            });
+        }
+        let from = self.container(0).unwrap_or_default();
+        self.engine.mount.head_for(self.time(), interval, from, end);
+        self.forget_impulses();
+        // A hair of tolerance, so that a multiple of the time step is not cut once more.
+        let steps = (interval / self.time_step * (1.0 - 1e-12)).ceil().max(1.0);
+        for _ in 0..steps as u64 {
+            self.advance(interval / steps, observer)?;
+        }
+        Ok(self.reaction(0).unwrap_or_default())
+    }
+}
+
+impl<C: Cavity, L: ContactLaw> Damper<C, L, Driven, crate::AllPairs> {
+    /// A builder for particles in `cavity` that meet by `law`.
+    ///
+    /// Unless told otherwise, the container is [`Driven`] and at rest, contacts are found by
+    /// [`Builder::default_detector`], and the integrator is [`VelocityVerlet`].
+    pub fn builder(cavity: C, law: L) -> Builder<C, L> {
+        Builder::new(cavity, law)
+    }
+}
+
+/// The bodies that occur, for laws and messages.
+pub(crate) fn smallest_radius(kinds: &[Body]) -> f64 {
+    kinds
+        .iter()
+        .map(|kind| kind.radius)
+        .fold(f64::INFINITY, f64::min)
 }

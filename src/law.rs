@@ -1,5 +1,9 @@
 //! Contact laws: the force between two bodies that touch.
 
+mod restitution;
+
+pub use restitution::{RestitutionCoefficients, RestitutionImpulse};
+
 use crate::contact::{Bodies, Contact, ContactForce};
 use crate::error::ValueError;
 use crate::material::MaterialId;

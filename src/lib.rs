@@ -7,17 +7,24 @@ pub mod detector;
 mod error;
 pub mod excitation;
 pub mod integrator;
-mod law;
+pub mod law;
 mod material;
 pub mod mount;
+mod observer;
 mod particle;
 
 pub use glam;
 
+pub use cavity::{Cavity, Cuboid, Slot};
 pub use contact::{Bodies, Body, Contact, ContactForce};
-pub use damper::{BuildError, Partner, StepError};
+pub use damper::{
+    BuildError, Builder, Damper, Partner, Reaction, RestoreError, Snapshot, StepError, WallLoad,
+};
 pub use detector::{AllPairs, Bed, Detector, DetectorError, Pairs};
 pub use error::{Bound, ValueError};
-pub use law::{ContactLaw, Evaluation, LawError};
+pub use integrator::{Integrator, RungeKutta4, VelocityVerlet};
+pub use law::{ContactLaw, Evaluation, LawError, RestitutionImpulse};
 pub use material::{Interaction, Material, MaterialId, Materials};
+pub use mount::{Driven, Motion, Mount, Prescribed, SingleDof};
+pub use observer::{ContactEvent, Observer};
 pub use particle::Particle;

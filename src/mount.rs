@@ -97,9 +97,13 @@ pub trait Mount {
     fn mobility(&self, _cavity: usize) -> DMat3 {
         DMat3::ZERO
     }
+
+    /// Told that the damper was restored to a state with the containers at `motions`. Only a mount
+    /// that keeps state of its own besides its coordinates cares.
+    fn resume(&mut self, _motions: &[Motion]) {}
 }
 
-impl<M: Mount + ?Sized> Mount for &M {
+impl<M: Mount + ?Sized> Mount for &mut M {
     fn degrees(&self) -> usize {
         (**self).degrees()
     }
@@ -129,5 +133,9 @@ impl<M: Mount + ?Sized> Mount for &M {
 
     fn mobility(&self, cavity: usize) -> DMat3 {
         (**self).mobility(cavity)
+    }
+
+    fn resume(&mut self, motions: &[Motion]) {
+        (**self).resume(motions);
     }
 }

@@ -91,6 +91,9 @@ pub enum BuildError {
         /// The longest step in s.
         limit: f64,
     },
+    /// The first evaluation failed.
+    #[error(transparent)]
+    Start(#[from] StepError),
     /// No time step was given, and the law sets no limit to derive one from.
     #[error("no time step was given, and the contact law does not limit it")]
     NoTimeStep,
@@ -134,7 +137,7 @@ pub enum StepError {
         /// Number of the particle.
         particle: usize,
         /// What it overlaps.
-        other: crate::damper::Partner,
+        other: super::Partner,
         /// Overlap in m.
         overlap: f64,
         /// The bound in m.

@@ -23,12 +23,14 @@ impl Driven {
         }
     }
 
-    /// Heads for `to` at `begin + duration`, from where the container is to be now.
-    pub(crate) const fn head_for(&mut self, begin: f64, duration: f64, to: Motion) {
-        self.from = self.to;
-        self.begin = begin;
-        self.duration = duration;
-        self.to = to;
+    /// Heads from `from` at `begin` for `to` at `begin + duration`.
+    pub(crate) const fn head_for(&mut self, begin: f64, duration: f64, from: Motion, to: Motion) {
+        *self = Self {
+            begin,
+            duration,
+            from,
+            to,
+        };
     }
 }
 
@@ -50,6 +52,10 @@ impl Mount for Driven {
             position: self.from.position + step * s + bend,
             velocity: (step + slope) / h,
         }
+    }
+
+    fn resume(&mut self, motions: &[Motion]) {
+        *self = Self::at(motions.first().copied().unwrap_or_default());
     }
 }
 
@@ -88,25 +94,18 @@ mod tests {
             position: DVec3::new(0.1, 0.2, 0.0),
             velocity: DVec3::new(-1.0, 3.0, 0.0),
         };
-        mount.head_for(2.0, 0.5, to);
+        mount.head_for(2.0, 0.5, Motion::default(), to);
         let end = mount.motion(2.5, &[], &[], 0);
         assert!((end.position - to.position).length() < 1e-15);
         assert!((end.velocity - to.velocity).length() < 1e-12);
         assert_eq!(mount.motion(2.0, &[], &[], 0), Motion::default());
 
         let steady = DVec3::X * 2.0;
-        let mut mount = Driven::at(Motion {
-            position: DVec3::ZERO,
+        let through = |position| Motion {
+            position,
             velocity: steady,
-        });
-        mount.head_for(
-            0.0,
-            0.5,
-            Motion {
-                position: DVec3::X,
-                velocity: steady,
-            },
-        );
+        };
+        mount.head_for(0.0, 0.5, through(DVec3::ZERO), through(DVec3::X));
         let middle = mount.motion(0.2, &[], &[], 0);
         assert!((middle.position - DVec3::X * 0.4).length() < 1e-15);
         assert!((middle.velocity - steady).length() < 1e-14);

@@ -1,0 +1,94 @@
+//! What the law prepared for every two bodies that can meet.
+
+use crate::contact::{Bodies, Body};
+use crate::law::{ContactLaw, LawError};
+use crate::material::MaterialId;
+
+/// Beds of more kinds of particles than this prepare pair by pair as particles come near, because a
+/// table of all pairs of kinds would no longer stay in the caches.
+const TABLE_LIMIT: usize = 64;
+
+/// Coefficients by pair of kinds, and by kind at a wall.
+#[derive(Debug, Clone)]
+pub(crate) struct Coefficients<K> {
+    kinds: Vec<Body>,
+    pairs: Option<Vec<K>>,
+    walls: Vec<K>,
+}
+
+impl<K: Copy> Coefficients<K> {
+    /// Asks `law` for all of `kinds`, with walls of `wall_material`.
+    pub(crate) fn new<L: ContactLaw<Coefficients = K>>(
+        law: &L,
+        kinds: &[Body],
+        wall_material: MaterialId,
+    ) -> Result<Self, LawError> {
+        let wall = Body::wall(wall_material);
+        let walls = kinds
+            .iter()
+            .map(|kind| law.coefficients(&Bodies::new(*kind, wall)));
+        let pairs = (kinds.len() <= TABLE_LIMIT).then(|| {
+            kinds
+                .iter()
+                .flat_map(|first| kinds.iter().map(move |second| Bodies::new(*first, *second)))
+                .map(|bodies| law.coefficients(&bodies))
+                .collect::<Result<Vec<_>, _>>()
+        });
+        Ok(Self {
+            kinds: kinds.to_vec(),
+            walls: walls.collect::<Result<_, _>>()?,
+            pairs: pairs.transpose()?,
+        })
+    }
+
+    /// The longest time step that `law` allows for every wall contact and every pair of kinds; of a
+    /// long list of kinds, for every kind against itself and against the lightest.
+    pub(crate) fn time_step_limit<L>(&self, law: &L) -> Result<f64, LawError>
+    where
+        L: ContactLaw<Coefficients = K>,
+    {
+        let longest = |limit: f64, coefficients: &K| limit.min(law.time_step_limit(coefficients));
+        let mut limit = self.walls.iter().fold(f64::INFINITY, longest);
+        if let Some(pairs) = &self.pairs {
+            return Ok(pairs.iter().fold(limit, longest));
+        }
+        let lightest = self.kinds.iter().min_by(|a, b| a.mass.total_cmp(&b.mass));
+        for kind in &self.kinds {
+            for other in [kind].into_iter().chain(lightest) {
+                limit = longest(limit, &law.coefficients(&Bodies::new(*kind, *other))?);
+            }
+        }
+        Ok(limit)
+    }
+
+    /// Whether pairs have to be prepared one by one ([`prepare`](Self::prepare)).
+    pub(crate) const fn is_by_pair(&self) -> bool {
+        self.pairs.is_none()
+    }
+
+    /// Asks `law` for one pair of kinds.
+    pub(crate) fn prepare<L>(&self, law: &L, first: u32, second: u32) -> Result<K, LawError>
+    where
+        L: ContactLaw<Coefficients = K>,
+    {
+        let kind = |number: u32| self.kinds[number as usize];
+        law.coefficients(&Bodies::new(kind(first), kind(second)))
+    }
+
+    /// The coefficients of two kinds; `prepared` are those of the pair, if it has its own.
+    #[inline]
+    pub(crate) fn pair(&self, first: u32, second: u32, prepared: Option<&K>) -> K {
+        match (&self.pairs, prepared) {
+            (_, Some(own)) => *own,
+            (Some(table), None) => table[first as usize * self.kinds.len() + second as usize],
+            // A pair is prepared whenever there is no table.
+            (None, None) => self.walls[first as usize],
+        }
+    }
+
+    /// The coefficients of a kind at a wall.
+    #[inline]
+    pub(crate) fn wall(&self, kind: u32) -> &K {
+        &self.walls[kind as usize]
+    }
+}

@@ -1,0 +1,532 @@
+//! The engine: everything of a damper but its integrator. It keeps the candidates fresh and turns
+//! the state into accelerations.
+
+use glam::DVec3;
+
+use super::block::{BLOCK, Block, Place};
+use super::candidates::Remembered;
+use super::coefficients::Coefficients;
+use super::error::StepError;
+use super::particles::Particles;
+use super::scene::{Room, WallLoad};
+use crate::cavity::Cavity;
+use crate::detector::{Bed, Detector, Pairs};
+use crate::integrator::{Columns, Motions, Stage, System};
+use crate::law::{ContactLaw, Evaluation};
+use crate::mount::{Motion, Mount};
+use crate::observer::Observer;
+
+/// Coordinates of the mount, followed by three per cavity whose velocity sums up the impulse on its
+/// container. Integrating them along with the rest makes that impulse exactly the momentum that the
+/// particles lost, whatever the integrator.
+#[derive(Debug, Clone, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct MountState {
+    pub(crate) position: Vec<f64>,
+    pub(crate) velocity: Vec<f64>,
+    pub(crate) acceleration: Vec<f64>,
+}
+
+impl MountState {
+    pub(crate) fn new<M: Mount>(mount: &M, cavities: usize) -> Self {
+        let degrees = mount.degrees();
+        let mut state = Self {
+            position: vec![0.0; degrees + 3 * cavities],
+            velocity: vec![0.0; degrees + 3 * cavities],
+            acceleration: vec![0.0; degrees + 3 * cavities],
+        };
+        mount.start(
+            &mut state.position[..degrees],
+            &mut state.velocity[..degrees],
+        );
+        state
+    }
+}
+
+/// What stays between steps only to save work.
+#[derive(Debug, Clone)]
+pub(crate) struct Scratch<L: ContactLaw> {
+    proposals: Pairs,
+    /// Proposals by their lower slot: ends of the rows, and the higher slots.
+    rows: Vec<u32>,
+    partners: Vec<u32>,
+    /// Where each particle was in its container's frame when the candidates were listed.
+    reference: Vec<DVec3>,
+    memory: [Vec<Remembered<L::Memory>>; 2],
+    /// Whether the candidates may still be used.
+    pub(crate) listed: bool,
+    /// Velocities, spins and rates of the mount after the impulses so far.
+    pub(crate) velocity: Vec<DVec3>,
+    pub(crate) spin: Vec<DVec3>,
+    pub(crate) rates: Vec<f64>,
+    /// What each container's velocity gains over the step without impulses.
+    pub(crate) gain: Vec<DVec3>,
+}
+
+impl<L: ContactLaw> Default for Scratch<L> {
+    fn default() -> Self {
+        Self {
+            proposals: Pairs::default(),
+            rows: Vec::new(),
+            partners: Vec::new(),
+            reference: Vec::new(),
+            memory: [Vec::new(), Vec::new()],
+            listed: false,
+            velocity: Vec::new(),
+            spin: Vec::new(),
+            rates: Vec::new(),
+            gain: Vec::new(),
+        }
+    }
+}
+
+/// A damper without its integrator.
+#[derive(Debug, Clone)]
+pub(crate) struct Engine<C, L: ContactLaw, M, D> {
+    pub(crate) law: L,
+    pub(crate) mount: M,
+    pub(crate) gravity: DVec3,
+    pub(crate) rooms: Vec<Room<C>>,
+    pub(crate) detectors: Vec<D>,
+    pub(crate) coefficients: Coefficients<L::Coefficients>,
+    pub(crate) particles: Particles,
+    pub(crate) mount_state: MountState,
+    pub(crate) blocks: Vec<Block<L>>,
+    pub(crate) scratch: Scratch<L>,
+    /// Loads of the particles on each wall, all cavities in turn.
+    pub(crate) wall_loads: Vec<WallLoad>,
+    /// Forces of the particles on each container.
+    pub(crate) loads: Vec<DVec3>,
+    pub(crate) time: f64,
+    /// Number of the last accepted step; it wraps.
+    pub(crate) stamp: u32,
+    pub(crate) detections: u64,
+    pub(crate) overlap_limit: f64,
+    pub(crate) contained: bool,
+}
+
+impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
+    /// How many walls all cavities have.
+    pub(crate) fn wall_count(rooms: &[Room<C>]) -> usize {
+        rooms.iter().map(|room| room.cavity.walls() as usize).sum()
+    }
+
+    /// Blocks for `count` slots.
+    pub(crate) fn make_blocks(count: usize, walls: usize) -> Vec<Block<L>> {
+        (0..count)
+            .step_by(BLOCK)
+            .map(|start| Block::new(start..count.min(start + BLOCK), walls))
+            .collect()
+    }
+
+    /// Moves the containers to where the mount has them at `time`.
+    pub(crate) fn place_containers(&mut self, time: f64) -> Result<(), StepError> {
+        let degrees = self.mount.degrees();
+        let coordinates = &self.mount_state.position[..degrees];
+        let velocities = &self.mount_state.velocity[..degrees];
+        for (cavity, room) in self.rooms.iter_mut().enumerate() {
+            let Motion { position, velocity } =
+                self.mount.motion(time, coordinates, velocities, cavity);
+            if !(position.is_finite() && velocity.is_finite()) {
+                return Err(StepError::Container {
+                    cavity,
+                    position,
+                    velocity,
+                });
+            }
+            room.motion = Motion { position, velocity };
+        }
+        Ok(())
+    }
+
+    /// Lists the pairs and walls that touch now. With `afresh`, candidates without a skin are listed
+    /// anew first; candidates that can no longer be trusted always are.
+    pub(crate) fn find_contacts(&mut self, afresh: bool) -> Result<(), StepError> {
+        let skinless = afresh && self.detectors.iter().any(|detector| detector.skin() == 0.0);
+        if skinless || !self.scratch.listed || !self.narrow() {
+            self.detect()?;
+            self.narrow();
+        }
+        Ok(())
+    }
+
+    /// Narrow phase. Returns whether the candidates could be trusted.
+    fn narrow(&mut self) -> bool {
+        let scene =
+            self.particles
+                .scene(&self.law, &self.coefficients, &self.rooms, 0.0, self.stamp);
+        let reference = &self.scratch.reference;
+        let mut trusted = true;
+        for block in &mut self.blocks {
+            trusted &= block.narrow(&scene, reference);
+        }
+        trusted
+    }
+
+    /// Broad phase: lists candidates, and hands the memory of contacts over to the new list.
+    fn detect(&mut self) -> Result<(), StepError> {
+        self.scratch.memory.iter_mut().for_each(Vec::clear);
+        for block in &mut self.blocks {
+            block.clear(self.stamp, &mut self.scratch.memory);
+        }
+        self.scratch.memory[0].sort_unstable_by_key(Remembered::key);
+        self.list()
+    }
+
+    /// Gives contacts the memories that [`remembered`](Self::remembered) saved.
+    pub(crate) fn recall(
+        &mut self,
+        memory: &[Vec<Remembered<L::Memory>>; 2],
+    ) -> Result<(), StepError> {
+        for block in &mut self.blocks {
+            block.clear(self.stamp, &mut self.scratch.memory);
+        }
+        self.scratch.memory.clone_from(memory);
+        self.list()
+    }
+
+    /// Lists candidates in blocks that are empty; those that remember have their memory in the
+    /// scratch.
+    fn list(&mut self) -> Result<(), StepError> {
+        self.scratch.listed = false;
+        self.detections += 1;
+        self.check_finite()?;
+        self.propose()?;
+        self.list_candidates();
+        let scene =
+            self.particles
+                .scene(&self.law, &self.coefficients, &self.rooms, 0.0, self.stamp);
+        for block in &mut self.blocks {
+            block.finish(&scene, &self.scratch.memory)?;
+        }
+        self.scratch.listed = true;
+        Ok(())
+    }
+
+    /// Asks the detectors, and sorts their proposals into rows by the lower slot.
+    fn propose(&mut self) -> Result<(), StepError> {
+        let count = self.particles.len();
+        let scratch = &mut self.scratch;
+        scratch.rows.clear();
+        scratch.rows.resize(count + 1, 0);
+        scratch.partners.clear();
+        scratch.reference.clear();
+        for (room, detector) in self.rooms.iter().zip(&mut self.detectors) {
+            let slots = room.slots.clone();
+            let origin = room.motion.position;
+            let positions = &self.particles.position[slots.clone()];
+            let bed = Bed::new(
+                positions,
+                &self.particles.radius[slots.clone()],
+                room.cavity.bounds(),
+            )
+            .from_origin(origin)
+            .in_plane(room.cavity.is_planar())
+            .with_margin(room.margin);
+            scratch.proposals.clear();
+            detector.detect(&bed, &mut scratch.proposals);
+            scratch
+                .reference
+                .extend(positions.iter().map(|position| *position - origin));
+
+            let proposals = scratch.proposals.as_slice();
+            let rows = &mut scratch.rows[slots.start..];
+            for &[first, second] in proposals {
+                if first == second || second as usize >= slots.len() {
+                    return Err(StepError::InvalidPair {
+                        first,
+                        second,
+                        particles: slots.len(),
+                    });
+                }
+                rows[first as usize + 1] += 1;
+            }
+            let mut end = scratch.partners.len() as u32;
+            rows[0] = end;
+            for row in &mut rows[1..=slots.len()] {
+                end += *row;
+                *row = end;
+            }
+            // Filling a row from its end moves the end to the start.
+            scratch.partners.resize(end as usize, 0);
+            for &[first, second] in proposals.iter().rev() {
+                let place = &mut rows[first as usize + 1];
+                *place -= 1;
+                scratch.partners[*place as usize] = slots.start as u32 + second;
+            }
+            rows.copy_within(1..=slots.len(), 0);
+            rows[slots.len()] = end;
+        }
+        Ok(())
+    }
+
+    /// Fills the blocks' empty lists from the sorted proposals, and with the walls that are near.
+    fn list_candidates(&mut self) {
+        let scratch = &mut self.scratch;
+        for block in &mut self.blocks {
+            for slot in block.slots.clone() {
+                let row = scratch.rows[slot] as usize..scratch.rows[slot + 1] as usize;
+                let partners = &mut scratch.partners[row];
+                partners.sort_unstable();
+                let mut last = None;
+                for partner in partners
+                    .iter()
+                    .copied()
+                    .filter(|p| last.replace(*p) != Some(*p))
+                {
+                    if (partner as usize) < block.slots.end {
+                        block.pairs.push(partner);
+                    } else {
+                        block.border.push(partner);
+                    }
+                }
+                block.pairs.end_row();
+                block.border.end_row();
+            }
+            for room in &self.rooms {
+                let from = room.slots.start.max(block.slots.start);
+                let to = room.slots.end.min(block.slots.end);
+                for slot in from..to {
+                    let reach = self.particles.radius[slot] + room.margin;
+                    let point = scratch.reference[slot];
+                    for wall in 0..room.cavity.walls() {
+                        if room.cavity.wall(wall, point).distance < reach {
+                            block.walls.push(room.first_wall + wall);
+                        }
+                    }
+                    block.walls.end_row();
+                }
+            }
+        }
+    }
+
+    /// Refuses positions that are not finite.
+    fn check_finite(&self) -> Result<(), StepError> {
+        let bad = self
+            .particles
+            .position
+            .iter()
+            .position(|position| !position.is_finite());
+        bad.map_or(Ok(()), |slot| Err(self.not_finite(slot)))
+    }
+
+    fn not_finite(&self, slot: usize) -> StepError {
+        StepError::NotFinite {
+            particle: self.particles.number[slot] as usize,
+            position: self.particles.position[slot],
+            acceleration: self.particles.acceleration[slot],
+        }
+    }
+
+    /// Forces of a stiff law: evaluates the contacts, and turns forces into accelerations.
+    fn evaluate_contacts<O: Observer, const END: bool>(
+        &mut self,
+        elapsed: f64,
+        observer: &mut O,
+    ) -> Result<(), StepError> {
+        let particles = &mut self.particles;
+        let mut force = std::mem::take(&mut particles.acceleration);
+        let mut torque = std::mem::take(&mut particles.angular_acceleration);
+        let scene = particles.scene(
+            &self.law,
+            &self.coefficients,
+            &self.rooms,
+            elapsed,
+            self.stamp,
+        );
+        for block in &mut self.blocks {
+            let slots = block.slots.clone();
+            let (force, torque) = (&mut force[slots.clone()], &mut torque[slots]);
+            block.evaluate::<C, O, END>(&scene, force, torque, observer);
+        }
+        for block in &self.blocks {
+            for parcel in &block.parcels {
+                force[parcel.slot as usize] += parcel.force;
+                torque[parcel.slot as usize] += parcel.torque;
+            }
+        }
+        // Sums of anything that is not finite are not finite.
+        let mut sum = DVec3::ZERO;
+        for (force, inverse) in force.iter_mut().zip(&particles.inverse_mass) {
+            *force = *force * *inverse + self.gravity;
+            sum += *force;
+        }
+        for (torque, inverse) in torque.iter_mut().zip(&particles.inverse_inertia) {
+            *torque *= *inverse;
+        }
+        particles.acceleration = force;
+        particles.angular_acceleration = torque;
+
+        self.wall_loads.fill(WallLoad::default());
+        for block in &self.blocks {
+            for (total, load) in self.wall_loads.iter_mut().zip(&block.loads) {
+                total.add(load);
+            }
+        }
+        if !sum.is_finite() {
+            self.check_accelerations()?;
+        }
+        self.check_overlaps()
+    }
+
+    pub(crate) fn check_accelerations(&self) -> Result<(), StepError> {
+        let bad = self
+            .particles
+            .acceleration
+            .iter()
+            .position(|a| !a.is_finite());
+        bad.map_or(Ok(()), |slot| Err(self.not_finite(slot)))
+    }
+
+    /// Refuses overlaps past the bound, and particles behind a wall if they are to be contained.
+    pub(crate) fn check_overlaps(&self) -> Result<(), StepError> {
+        for block in &self.blocks {
+            if let (true, Some(Place { slot, partner })) = (self.contained, block.escaped) {
+                return Err(self.escaped(slot, partner));
+            }
+            // A bound that a NaN does not pass.
+            if !(block.largest_overlap <= self.overlap_limit) {
+                return Err(self.overlaps(block));
+            }
+        }
+        Ok(())
+    }
+
+    fn escaped(&self, slot: usize, partner: super::Partner) -> StepError {
+        let room = &self.rooms[self.cavity_of(slot)];
+        StepError::Escaped {
+            particle: self.particles.number[slot] as usize,
+            wall: match partner {
+                super::Partner::Wall(wall) => wall,
+                super::Partner::Particle(_) => 0,
+            },
+            position: self.particles.position[slot] - room.motion.position,
+        }
+    }
+
+    fn overlaps(&self, block: &Block<L>) -> StepError {
+        let scene =
+            self.particles
+                .scene(&self.law, &self.coefficients, &self.rooms, 0.0, self.stamp);
+        let place = block.deepest(&scene);
+        let (slot, other) = place.map_or((block.slots.start, super::Partner::Wall(0)), |place| {
+            (place.slot, place.partner)
+        });
+        StepError::Overlap {
+            particle: self.particles.number[slot] as usize,
+            other,
+            overlap: block.largest_overlap,
+            limit: self.overlap_limit,
+        }
+    }
+
+    /// Number of the cavity whose particle is in `slot`.
+    pub(crate) fn cavity_of(&self, slot: usize) -> usize {
+        self.rooms.partition_point(|room| room.slots.end <= slot)
+    }
+
+    /// The mount's accelerations under the loads on the walls.
+    pub(crate) fn accelerate_mount(&mut self, time: f64) {
+        for (room, load) in self.rooms.iter().zip(&mut self.loads) {
+            let first = room.first_wall as usize;
+            let walls = &self.wall_loads[first..first + room.cavity.walls() as usize];
+            *load = walls.iter().map(|wall| wall.force).sum();
+        }
+        let degrees = self.mount.degrees();
+        let state = &mut self.mount_state;
+        let (accelerations, impulses) = state.acceleration.split_at_mut(degrees);
+        for (impulse, load) in impulses.chunks_exact_mut(3).zip(&self.loads) {
+            impulse.copy_from_slice(&load.to_array());
+        }
+        self.mount.accelerate(
+            time,
+            &state.position[..degrees],
+            &state.velocity[..degrees],
+            &self.loads,
+            accelerations,
+        );
+    }
+
+    /// Accelerations of the current state at `time`, `elapsed` after memories were advanced.
+    pub(crate) fn evaluate<O: Observer>(
+        &mut self,
+        time: f64,
+        elapsed: f64,
+        stage: Stage,
+        afresh: bool,
+        observer: &mut O,
+    ) -> Result<(), StepError> {
+        self.place_containers(time)?;
+        if self.law.evaluation() == Evaluation::EveryStage {
+            self.find_contacts(afresh)?;
+            match stage {
+                Stage::Trial => self.evaluate_contacts::<(), false>(elapsed, &mut ())?,
+                Stage::End => self.evaluate_contacts::<O, true>(elapsed, observer)?,
+            }
+        }
+        self.accelerate_mount(time);
+        Ok(())
+    }
+
+    /// Contacts within the cavities and at walls.
+    pub(crate) fn contacts(&self) -> usize {
+        self.blocks.iter().map(|block| block.contacts).sum()
+    }
+
+    /// Memories of all contacts, pairs and walls, by slot.
+    pub(crate) fn remembered(&self) -> [Vec<Remembered<L::Memory>>; 2] {
+        let mut memory = [Vec::new(), Vec::new()];
+        for block in &self.blocks {
+            block.remember(self.stamp, &mut memory);
+        }
+        memory[0].sort_unstable_by_key(Remembered::key);
+        memory
+    }
+}
+
+/// One step of an engine, as an integrator sees it.
+pub(crate) struct Step<'a, C, L: ContactLaw, M, D, O> {
+    pub(crate) engine: &'a mut Engine<C, L, M, D>,
+    pub(crate) observer: &'a mut O,
+    pub(crate) begin: f64,
+    /// Whether nothing has been evaluated in this step yet.
+    pub(crate) fresh: bool,
+}
+
+impl<C, L, M, D, O> System for Step<'_, C, L, M, D, O>
+where
+    C: Cavity,
+    L: ContactLaw,
+    M: Mount,
+    D: Detector,
+    O: Observer,
+{
+    fn motions(&mut self) -> Motions<'_> {
+        let particles = &mut self.engine.particles;
+        let mount = &mut self.engine.mount_state;
+        Motions {
+            translation: Columns {
+                position: &mut particles.position,
+                velocity: &mut particles.velocity,
+                acceleration: &particles.acceleration,
+            },
+            rotation: Columns {
+                position: &mut [],
+                velocity: &mut particles.spin,
+                acceleration: &particles.angular_acceleration,
+            },
+            mount: Columns {
+                position: &mut mount.position,
+                velocity: &mut mount.velocity,
+                acceleration: &mount.acceleration,
+            },
+        }
+    }
+
+    fn evaluate(&mut self, elapsed: f64, stage: Stage) -> Result<(), StepError> {
+        let afresh = std::mem::take(&mut self.fresh);
+        let time = self.begin + elapsed;
+        self.engine
+            .evaluate(time, elapsed, stage, afresh, self.observer)
+    }
+}

@@ -1,0 +1,200 @@
+//! Impulse laws: one evaluation at the start of a step, held over the step.
+
+use glam::{DMat3, DVec3};
+
+use super::Partner;
+use super::block::Place;
+use super::engine::Engine;
+use super::error::StepError;
+use super::scene::WallLoad;
+use crate::cavity::Cavity;
+use crate::detector::Detector;
+use crate::law::{ContactLaw, Evaluation};
+use crate::mount::Mount;
+use crate::observer::{ContactEvent, Observer};
+
+impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
+    /// Strikes all contacts, and leaves the accelerations that hold over a step of `time_step`.
+    ///
+    /// Where contacts follow one another, each sees the velocities that those before it left.
+    pub(crate) fn strike<O: Observer>(
+        &mut self,
+        time_step: f64,
+        observer: &mut O,
+    ) -> Result<(), StepError> {
+        self.place_containers(self.time)?;
+        self.find_contacts(true)?;
+        self.prepare_impulses(time_step);
+        self.strike_pairs(time_step, observer);
+        self.strike_walls(time_step, observer);
+        self.hold(time_step)?;
+        self.stamp = self.stamp.wrapping_add(1);
+        self.accelerate_mount(self.time);
+        self.check_overlaps()
+    }
+
+    /// Sets the working velocities, and looks ahead to what the containers gain over the step.
+    fn prepare_impulses(&mut self, time_step: f64) {
+        self.wall_loads.fill(WallLoad::default());
+        self.accelerate_mount(self.time);
+        let degrees = self.mount.degrees();
+        let state = &self.mount_state;
+        let coordinates = &state.position[..degrees];
+        let rates = &state.velocity[..degrees];
+        let scratch = &mut self.scratch;
+        scratch.velocity.clone_from(&self.particles.velocity);
+        scratch.spin.clone_from(&self.particles.spin);
+
+        let ahead = rates
+            .iter()
+            .zip(&state.acceleration)
+            .map(|(v, a)| v + a * time_step);
+        scratch.rates.clear();
+        scratch.rates.extend(ahead);
+        scratch.gain.clear();
+        let end = self.time + time_step;
+        for (cavity, room) in self.rooms.iter().enumerate() {
+            let ahead = self.mount.motion(end, coordinates, &scratch.rates, cavity);
+            scratch.gain.push(ahead.velocity - room.motion.velocity);
+        }
+        scratch.rates.clear();
+        scratch.rates.extend_from_slice(rates);
+    }
+
+    fn strike_pairs<O: Observer>(&mut self, time_step: f64, observer: &mut O) {
+        let sequential = self.law.evaluation() == Evaluation::Sequential;
+        let particles = &self.particles;
+        let scene = particles.scene(
+            &self.law,
+            &self.coefficients,
+            &self.rooms,
+            time_step,
+            self.stamp,
+        );
+        let (velocity, spin) = (&mut self.scratch.velocity, &mut self.scratch.spin);
+        for block in &mut self.blocks {
+            block.contacts = block.touching().0.len() + block.touching().1.len();
+            block.largest_overlap = 0.0;
+            block.escaped = None;
+            for index in 0..block.touching().0.len() {
+                let touch = block.touching().0[index];
+                let (i, j) = (touch.first as usize, touch.second as usize);
+                let mut pair = if sequential {
+                    scene.pair_with(i, j, velocity, spin)
+                } else {
+                    scene.pair(i, j)
+                };
+                pair.contact.mobility =
+                    DMat3::from_diagonal(DVec3::splat(particles.inverse_mass[j]));
+                let list = block.list_of_pair(index);
+                let kinds = (particles.species[i], particles.species[j]);
+                let kind = scene
+                    .coefficients
+                    .pair(kinds.0, kinds.1, list.prepared(touch.place));
+                let memory = list.memory(touch.place, scene.stamp);
+                let answer = scene.law.force(&kind, &pair.contact, &memory);
+                let memory = scene.law.advance(&kind, &pair.contact, &memory);
+                list.keep(touch.place, scene.stamp.wrapping_add(1), memory);
+
+                block.largest_overlap = block.largest_overlap.max(pair.contact.overlap);
+                let (force, first, second) = pair.resolve(&answer);
+                velocity[i] += force * (time_step * particles.inverse_mass[i]);
+                velocity[j] -= force * (time_step * particles.inverse_mass[j]);
+                spin[i] += first * (time_step * particles.inverse_inertia[i]);
+                spin[j] += second * (time_step * particles.inverse_inertia[j]);
+                if observer.wants_contacts() {
+                    observer.contact(&ContactEvent {
+                        particle: particles.number[i] as usize,
+                        partner: Partner::Particle(particles.number[j] as usize),
+                        cavity: self.rooms.partition_point(|room| room.slots.end <= i),
+                        contact: pair.contact,
+                        force: answer,
+                    });
+                }
+            }
+        }
+    }
+
+    fn strike_walls<O: Observer>(&mut self, time_step: f64, observer: &mut O) {
+        let sequential = self.law.evaluation() == Evaluation::Sequential;
+        let degrees = self.mount.degrees();
+        let particles = &self.particles;
+        let scene = particles.scene(
+            &self.law,
+            &self.coefficients,
+            &self.rooms,
+            time_step,
+            self.stamp,
+        );
+        let (velocity, spin) = (&mut self.scratch.velocity, &mut self.scratch.spin);
+        let rates = &mut self.scratch.rates;
+        let gravity = self.gravity * time_step;
+        for block in &mut self.blocks {
+            for index in 0..block.touching().1.len() {
+                let touch = block.touching().1[index];
+                let (slot, wall) = (touch.first as usize, touch.second);
+                let cavity = scene.cavity_of_wall(wall);
+                let room = &self.rooms[cavity];
+                let (distance, mut contact) = if sequential {
+                    let coordinates = &self.mount_state.position[..degrees];
+                    let container = self.mount.motion(self.time, coordinates, rates, cavity);
+                    let (velocity, spin) = (velocity[slot], spin[slot]);
+                    scene.wall_with(slot, wall, velocity, spin, container.velocity)
+                } else {
+                    scene.wall(slot, wall)
+                };
+                contact.velocity_ahead = contact.velocity + gravity - self.scratch.gain[cavity];
+                contact.mobility = self.mount.mobility(cavity);
+                let kind = scene.coefficients.wall(particles.species[slot]);
+                let memory = block.walls.memory(touch.place, scene.stamp);
+                let answer = scene.law.force(kind, &contact, &memory);
+                let memory = scene.law.advance(kind, &contact, &memory);
+                block
+                    .walls
+                    .keep(touch.place, scene.stamp.wrapping_add(1), memory);
+
+                block.largest_overlap = block.largest_overlap.max(contact.overlap);
+                let partner = Partner::Wall(wall - room.first_wall);
+                if distance < 0.0 {
+                    block.escaped = Some(Place { slot, partner });
+                }
+                let force = contact.normal * answer.normal + answer.tangential;
+                let arm = contact.normal * -particles.radius[slot];
+                let torque = arm.cross(answer.tangential) + answer.couple;
+                velocity[slot] += force * (time_step * particles.inverse_mass[slot]);
+                spin[slot] += torque * (time_step * particles.inverse_inertia[slot]);
+                self.mount.strike(cavity, -force * time_step, rates);
+                let place = particles.position[slot] - room.motion.position + arm;
+                self.wall_loads[wall as usize].react(force, answer.couple, place);
+                if observer.wants_contacts() {
+                    observer.contact(&ContactEvent {
+                        particle: particles.number[slot] as usize,
+                        partner,
+                        cavity,
+                        contact,
+                        force: answer,
+                    });
+                }
+            }
+        }
+    }
+
+    /// Turns the velocities after the impulses into accelerations that lead to them.
+    fn hold(&mut self, time_step: f64) -> Result<(), StepError> {
+        let (scratch, particles) = (&self.scratch, &mut self.particles);
+        let rate = 1.0 / time_step;
+        let mut sum = DVec3::ZERO;
+        for (n, acceleration) in particles.acceleration.iter_mut().enumerate() {
+            *acceleration = (scratch.velocity[n] - particles.velocity[n]) * rate + self.gravity;
+            sum += *acceleration;
+        }
+        for (n, acceleration) in particles.angular_acceleration.iter_mut().enumerate() {
+            *acceleration = (scratch.spin[n] - particles.spin[n]) * rate;
+        }
+        if sum.is_finite() {
+            Ok(())
+        } else {
+            self.check_accelerations()
+        }
+    }
+}

@@ -1,0 +1,186 @@
+use glam::DVec3;
+
+use super::{ContactLaw, Evaluation, LawError};
+use crate::contact::{Bodies, Contact, ContactForce};
+use crate::error::{Bound, ValueError};
+use crate::material::Materials;
+
+/// A step moves a particle at the reference speed by at most this fraction of the smaller radius.
+const TRAVEL: f64 = 0.2;
+
+/// The restitution coefficient turned into a force over one step (the paper's Sec. 4.3), for any
+/// masses: the coarse law.
+///
+/// Two bodies that touch and approach at speed v are given the impulse J = m* (1 + e) v along the
+/// normal (Eqs 10 and 11, where the wall yields as its mount does), as the force J/dt held over the
+/// step (Eq. 12). As it stands in the paper the law lets resting particles sink, by g dt/(1 + e) in
+/// velocity and layer, until they leave through the floor. The default form differs in this:
+///
+/// - Contacts are struck one after the other, each with the velocities that those before it left.
+/// - At a wall the impulse also takes up what gravity and the container's motion add over the step, so
+///   that a resting particle rests.
+/// - The bodies part at e v, or at the speed that takes away a fraction of the overlap within the
+///   step, whichever is larger.
+/// - Coulomb friction: the tangential impulse ends the slip if it can, and is mu J otherwise; it
+///   turns the particles.
+///
+/// [`literal`](Self::literal) is the paper's form.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RestitutionImpulse {
+    materials: Materials,
+    reference_speed: f64,
+    friction: bool,
+    literal: bool,
+    correction: f64,
+}
+
+/// What [`RestitutionImpulse`] prepares for two bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RestitutionCoefficients {
+    restitution: f64,
+    friction: f64,
+    /// Rolling friction coefficient times the effective radius, m.
+    rolling_arm: f64,
+    /// 1/m of the first body, 1/kg.
+    inverse_mass: f64,
+    /// What spin adds to the inverse mass in the tangent plane, 1/kg.
+    turning: f64,
+    /// Sum of the inverse moments of inertia, 1/(kg m^2).
+    inverse_inertia: f64,
+    smaller_radius: f64,
+}
+
+impl RestitutionImpulse {
+    /// The law for bodies of `materials`, in its default form.
+    #[must_use]
+    pub fn new(materials: impl Into<Materials>) -> Self {
+        Self {
+            materials: materials.into(),
+            reference_speed: 1.0,
+            friction: true,
+            literal: false,
+            correction: 0.2,
+        }
+    }
+
+    /// Eqs (10) to (12) as they are printed: all contacts from the same velocities, no friction, no
+    /// spin, and nothing to keep resting particles from sinking. It loses particles: build the damper
+    /// with [`contained(false)`](crate::Builder::contained) and an infinite
+    /// [`overlap_limit`](crate::Builder::overlap_limit).
+    #[must_use]
+    pub fn literal(materials: impl Into<Materials>) -> Self {
+        Self {
+            friction: false,
+            literal: true,
+            correction: 0.0,
+            ..Self::new(materials)
+        }
+    }
+
+    /// The same law with or without friction and the spin that comes of it.
+    #[must_use]
+    pub const fn friction(mut self, friction: bool) -> Self {
+        self.friction = friction;
+        self
+    }
+
+    /// The same law for relative speeds about `speed` (m/s; 1 unless set), which bounds the time step.
+    ///
+    /// # Errors
+    /// If the speed is not positive and finite.
+    pub fn reference_speed(mut self, speed: f64) -> Result<Self, ValueError> {
+        self.reference_speed = Bound::Positive.check("reference speed (m/s)", speed)?;
+        Ok(self)
+    }
+
+    /// The same law taking away this fraction of the overlap per step (0.2 unless set).
+    ///
+    /// # Errors
+    /// If the fraction is not in 0 to 1.
+    pub fn overlap_correction(mut self, fraction: f64) -> Result<Self, ValueError> {
+        self.correction = Bound::Within(0.0, 1.0).check("overlap correction", fraction)?;
+        Ok(self)
+    }
+}
+
+/// Inverse moment of inertia of a solid sphere, 1/(kg m^2); zero for a wall.
+fn inverse_inertia(radius: f64, mass: f64) -> f64 {
+    2.5 / (mass * radius * radius)
+}
+
+impl ContactLaw for RestitutionImpulse {
+    type Coefficients = RestitutionCoefficients;
+    type Memory = ();
+
+    fn coefficients(&self, bodies: &Bodies) -> Result<Self::Coefficients, LawError> {
+        let Bodies { first, second } = bodies;
+        for material in [first.material, second.material] {
+            self.materials
+                .get(material)
+                .ok_or(LawError::UnknownMaterial(material))?;
+        }
+        let interaction = self
+            .materials
+            .interaction(first.material, second.material)
+            .ok_or(LawError::UnknownMaterial(second.material))?;
+        let slides = f64::from(self.friction);
+        Ok(RestitutionCoefficients {
+            restitution: interaction.restitution,
+            friction: slides * interaction.friction,
+            rolling_arm: slides * interaction.rolling_friction * bodies.effective_radius(),
+            inverse_mass: 1.0 / first.mass,
+            turning: 2.5 / first.mass + 2.5 / second.mass,
+            inverse_inertia: inverse_inertia(first.radius, first.mass)
+                + inverse_inertia(second.radius, second.mass),
+            smaller_radius: first.radius.min(second.radius),
+        })
+    }
+
+    #[inline]
+    fn force(&self, own: &Self::Coefficients, contact: &Contact, _: &()) -> ContactForce {
+        let rate = 1.0 / contact.elapsed;
+        let normal = contact.normal;
+        let yielding = |along: DVec3| own.inverse_mass + along.dot(contact.mobility * along);
+        let approach = contact.approach_speed();
+        if self.literal {
+            let impulse = (1.0 + own.restitution) * approach.max(0.0) / yielding(normal);
+            return ContactForce::new(impulse * rate, DVec3::ZERO);
+        }
+        let ahead = -contact.velocity_ahead.dot(normal);
+        if ahead <= 0.0 {
+            return ContactForce::default();
+        }
+        let rebound = own.restitution * approach;
+        let correction = self.correction * contact.overlap * rate;
+        let impulse = (ahead + rebound.max(correction)) / yielding(normal);
+        let mut force = ContactForce::new(impulse * rate, DVec3::ZERO);
+        let slip = contact.velocity_ahead + ahead * normal;
+        let speed = slip.length();
+        if own.friction > 0.0 && speed > 0.0 {
+            let direction = slip / speed;
+            let sticking = speed / (yielding(direction) + own.turning);
+            force.tangential = direction * (-rate * sticking.min(own.friction * impulse));
+        }
+        if own.rolling_arm > 0.0 {
+            let rolling = contact.spins[0] - contact.spins[1];
+            let rolling = rolling - normal * rolling.dot(normal);
+            let speed = rolling.length();
+            let stopping = speed / own.inverse_inertia;
+            let couple = stopping.min(own.rolling_arm * impulse);
+            force.couple = rolling * (-rate * couple / speed.max(f64::MIN_POSITIVE));
+        }
+        force
+    }
+
+    fn evaluation(&self) -> Evaluation {
+        if self.literal {
+            Evaluation::Simultaneous
+        } else {
+            Evaluation::Sequential
+        }
+    }
+
+    fn time_step_limit(&self, own: &Self::Coefficients) -> f64 {
+        TRAVEL * own.smaller_radius / self.reference_speed
+    }
+}
