@@ -111,7 +111,7 @@ where
     }
 
     fn advance<O: Observer>(&mut self, dt: f64, observer: &mut O) -> Result<(), StepError> {
-        let impulsive = self.engine.law.evaluation() != Evaluation::EveryStage;
+        let impulsive = self.engine.world.law.evaluation() != Evaluation::EveryStage;
         if impulsive {
             self.engine.strike(dt, observer)?;
         }
@@ -123,7 +123,7 @@ where
         };
         self.integrator.step(&mut step, dt)?;
         if !impulsive {
-            self.engine.stamp = self.engine.stamp.wrapping_add(1);
+            self.engine.world.stamp = self.engine.world.stamp.wrapping_add(1);
         }
         self.clock.advance(dt);
         self.engine.time = self.clock.time();
@@ -159,7 +159,7 @@ where
     #[must_use]
     pub fn particle(&self, number: usize) -> Option<Particle> {
         let slot = *self.engine.particles.slot.get(number)? as usize;
-        let cavity = self.engine.cavity_of(slot) as u32;
+        let cavity = self.engine.world.cavity_of(slot) as u32;
         Some(self.engine.particles.particle(slot, cavity))
     }
 
@@ -167,7 +167,7 @@ where
     pub fn particles(&self) -> impl ExactSizeIterator<Item = Particle> {
         self.engine.particles.slot.iter().map(|slot| {
             let slot = *slot as usize;
-            let cavity = self.engine.cavity_of(slot) as u32;
+            let cavity = self.engine.world.cavity_of(slot) as u32;
             self.engine.particles.particle(slot, cavity)
         })
     }
@@ -181,7 +181,7 @@ where
     /// The contact law.
     #[must_use]
     pub const fn law(&self) -> &L {
-        &self.engine.law
+        &self.engine.world.law
     }
 
     /// The detector of a cavity.
@@ -207,7 +207,7 @@ where
     pub fn container(&self, cavity: usize) -> Option<Motion> {
         let degrees = self.engine.mount.degrees();
         let state = &self.engine.mount_state;
-        (cavity < self.engine.rooms.len()).then(|| {
+        (cavity < self.engine.world.rooms.len()).then(|| {
             self.engine.mount.motion(
                 self.time(),
                 &state.position[..degrees],
@@ -232,7 +232,7 @@ where
     /// over the step.
     #[must_use]
     pub fn wall_load(&self, cavity: usize, wall: u32) -> Option<WallLoad> {
-        let room = self.engine.rooms.get(cavity)?;
+        let room = self.engine.world.rooms.get(cavity)?;
         (wall < room.cavity.walls())
             .then(|| self.engine.wall_loads[(room.first_wall + wall) as usize])
     }
@@ -253,8 +253,8 @@ where
     /// How many particles have their centre outside their cavity.
     #[must_use]
     pub fn outside(&self) -> usize {
-        (0..self.engine.rooms.len())
-            .filter_map(|cavity| Some((&self.engine.rooms[cavity], self.container(cavity)?)))
+        (0..self.engine.world.rooms.len())
+            .filter_map(|cavity| Some((&self.engine.world.rooms[cavity], self.container(cavity)?)))
             .map(|(room, container)| {
                 self.engine.particles.position[room.slots.clone()]
                     .iter()

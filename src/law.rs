@@ -45,7 +45,8 @@ pub enum LawError {
 /// 1. [`coefficients`](Self::coefficients) is called for every combination of radius, mass and
 ///    material that can meet, before the first step. Do there whatever does not depend on the
 ///    motion, and refuse there what cannot be right.
-/// 2. [`force`](Self::force) is called for touching bodies alone (overlap > 0). It answers with the
+/// 2. [`force`](Self::force) is called for touching bodies alone (overlap > 0, or above minus the
+///    law's [`reach`](Self::reach)). It answers with the
 ///    force on the first body; the engine turns it into opposite forces and into torques. It must
 ///    be a function of its arguments: same arguments, same bits.
 /// 3. A law whose contacts have a past names it as [`Memory`](Self::Memory). A contact starts with
@@ -123,6 +124,12 @@ pub trait ContactLaw {
         Evaluation::EveryStage
     }
 
+    /// The gap in m up to which contacts of a step of `time_step` (s) are evaluated; zero, unless the
+    /// law acts on bodies that are about to touch. Their overlap is negative.
+    fn reach(&self, _time_step: f64) -> f64 {
+        0.0
+    }
+
     /// The longest time step in s that two bodies bear under this law.
     fn time_step_limit(&self, _coefficients: &Self::Coefficients) -> f64 {
         f64::INFINITY
@@ -162,6 +169,10 @@ macro_rules! forward_law {
             #[inline]
             fn evaluation(&self) -> Evaluation {
                 (**self).evaluation()
+            }
+
+            fn reach(&self, time_step: f64) -> f64 {
+                (**self).reach(time_step)
             }
 
             fn time_step_limit(&self, coefficients: &Self::Coefficients) -> f64 {

@@ -129,10 +129,10 @@ impl<L: ContactLaw> Block<L> {
             }
         }
         let touching = &mut self.touching;
-        let pair = |first, second| scene.overlap(first, second as usize);
+        let pair = |first, second| scene.is_reached(first, second as usize);
         self.touching_pairs = list_touching(&self.pairs, touching, 0, pair);
         self.touching_border = list_touching(&self.border, touching, self.touching_pairs, pair);
-        let wall = |slot, wall| scene.wall(slot, wall).1.overlap > 0.0;
+        let wall = |slot, wall| scene.wall(slot, wall).1.overlap > -scene.reach;
         self.touching_walls = list_touching(&self.walls, touching, self.touching_border, wall);
         trusted
     }

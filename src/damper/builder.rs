@@ -6,7 +6,7 @@ use super::coefficients::Coefficients;
 use super::engine::{Engine, MountState, Scratch};
 use super::error::BuildError;
 use super::particles::Particles;
-use super::scene::{Room, WallLoad};
+use super::scene::{Room, WallLoad, World};
 use super::{Damper, smallest_radius};
 use crate::cavity::Cavity;
 use crate::detector::{AllPairs, Bed, Detector};
@@ -166,23 +166,27 @@ where
         let coefficients = Coefficients::new(&self.law, &particles.kinds, self.wall_material)?;
         let time_step = self.choose_time_step(coefficients.time_step_limit(&self.law)?)?;
         let smallest = smallest_radius(&particles.kinds);
+        let reach = self.law.reach(time_step);
         let rooms = self.rooms(smallest);
         let walls = Engine::<C, L, M, D>::wall_count(&rooms);
         let mut engine = Engine {
             mount_state: MountState::new(&self.mount, rooms.len()),
             detectors: vec![self.detector; rooms.len()],
-            law: self.law,
             mount: self.mount,
             gravity: self.gravity,
-            coefficients,
             blocks: Engine::<C, L, M, D>::make_blocks(particles.len(), walls),
             particles,
             scratch: Scratch::default(),
             wall_loads: vec![WallLoad::default(); walls],
             loads: vec![DVec3::ZERO; rooms.len()],
-            rooms,
+            world: World {
+                law: self.law,
+                coefficients,
+                rooms,
+                reach,
+                stamp: 0,
+            },
             time: 0.0,
-            stamp: 0,
             detections: 0,
             overlap_limit: self.overlap_limit * smallest,
             contained: self.contained,
@@ -341,7 +345,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Places the containers and the particles in them, refuses overlaps of more than `allowed` (m),
     /// and evaluates the first accelerations.
     fn start(&mut self, allowed: f64) -> Result<(), BuildError> {
-        for room in &self.rooms {
+        for room in &self.world.rooms {
             if room.cavity.is_planar() {
                 // A mount that leaves the plane shows it in how it yields.
                 let mobility = self.mount.mobility(0);
@@ -349,7 +353,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             }
         }
         self.place_containers(0.0)?;
-        for (room, detector) in self.rooms.iter().zip(&mut self.detectors) {
+        for (room, detector) in self.world.rooms.iter().zip(&mut self.detectors) {
             if room.cavity.is_planar() {
                 in_plane("position of the container", room.motion.position)?;
                 in_plane("velocity of the container", room.motion.velocity)?;
@@ -361,17 +365,17 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 room.cavity.bounds(),
             )
             .in_plane(room.cavity.is_planar())
-            .with_margin(room.margin);
+            .with_margin(room.margin + self.world.reach);
             detector.prepare(&bed)?;
         }
-        for room in &self.rooms {
+        for room in &self.world.rooms {
             for position in &mut self.particles.position[room.slots.clone()] {
                 *position += room.motion.position;
             }
         }
         self.find_contacts(true)?;
         self.check_initial_overlaps(allowed)?;
-        if self.law.evaluation() == Evaluation::EveryStage {
+        if self.world.law.evaluation() == Evaluation::EveryStage {
             self.evaluate(0.0, 0.0, Stage::Trial, false, &mut ())?;
         } else {
             self.accelerate_mount(0.0);
@@ -380,9 +384,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     }
 
     fn check_initial_overlaps(&self, limit: f64) -> Result<(), BuildError> {
-        let scene =
-            self.particles
-                .scene(&self.law, &self.coefficients, &self.rooms, 0.0, self.stamp);
+        let scene = self.world.scene(&self.particles, 0.0);
         for touch in self.blocks.iter().flat_map(|block| block.touching().0) {
             let (first, second) = (touch.first as usize, touch.second as usize);
             let overlap = scene.pair(first, second).contact.overlap;

@@ -5,10 +5,9 @@ use glam::DVec3;
 
 use super::block::{BLOCK, Block, Place};
 use super::candidates::Remembered;
-use super::coefficients::Coefficients;
 use super::error::StepError;
 use super::particles::Particles;
-use super::scene::{Room, WallLoad};
+use super::scene::{Room, WallLoad, World};
 use crate::cavity::Cavity;
 use crate::detector::{Bed, Detector, Pairs};
 use crate::integrator::{Columns, Motions, Stage, System};
@@ -83,12 +82,10 @@ impl<L: ContactLaw> Default for Scratch<L> {
 /// A damper without its integrator.
 #[derive(Debug, Clone)]
 pub(crate) struct Engine<C, L: ContactLaw, M, D> {
-    pub(crate) law: L,
+    pub(crate) world: World<C, L>,
     pub(crate) mount: M,
     pub(crate) gravity: DVec3,
-    pub(crate) rooms: Vec<Room<C>>,
     pub(crate) detectors: Vec<D>,
-    pub(crate) coefficients: Coefficients<L::Coefficients>,
     pub(crate) particles: Particles,
     pub(crate) mount_state: MountState,
     pub(crate) blocks: Vec<Block<L>>,
@@ -98,8 +95,6 @@ pub(crate) struct Engine<C, L: ContactLaw, M, D> {
     /// Forces of the particles on each container.
     pub(crate) loads: Vec<DVec3>,
     pub(crate) time: f64,
-    /// Number of the last accepted step; it wraps.
-    pub(crate) stamp: u32,
     pub(crate) detections: u64,
     pub(crate) overlap_limit: f64,
     pub(crate) contained: bool,
@@ -124,7 +119,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let degrees = self.mount.degrees();
         let coordinates = &self.mount_state.position[..degrees];
         let velocities = &self.mount_state.velocity[..degrees];
-        for (cavity, room) in self.rooms.iter_mut().enumerate() {
+        for (cavity, room) in self.world.rooms.iter_mut().enumerate() {
             let Motion { position, velocity } =
                 self.mount.motion(time, coordinates, velocities, cavity);
             if !(position.is_finite() && velocity.is_finite()) {
@@ -152,9 +147,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
     /// Narrow phase. Returns whether the candidates could be trusted.
     fn narrow(&mut self) -> bool {
-        let scene =
-            self.particles
-                .scene(&self.law, &self.coefficients, &self.rooms, 0.0, self.stamp);
+        let scene = self.world.scene(&self.particles, 0.0);
         let reference = &self.scratch.reference;
         let mut trusted = true;
         for block in &mut self.blocks {
@@ -167,7 +160,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     fn detect(&mut self) -> Result<(), StepError> {
         self.scratch.memory.iter_mut().for_each(Vec::clear);
         for block in &mut self.blocks {
-            block.clear(self.stamp, &mut self.scratch.memory);
+            block.clear(self.world.stamp, &mut self.scratch.memory);
         }
         self.scratch.memory[0].sort_unstable_by_key(Remembered::key);
         self.list()
@@ -179,7 +172,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         memory: &[Vec<Remembered<L::Memory>>; 2],
     ) -> Result<(), StepError> {
         for block in &mut self.blocks {
-            block.clear(self.stamp, &mut self.scratch.memory);
+            block.clear(self.world.stamp, &mut self.scratch.memory);
         }
         self.scratch.memory.clone_from(memory);
         self.list()
@@ -193,9 +186,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         self.check_finite()?;
         self.propose()?;
         self.list_candidates();
-        let scene =
-            self.particles
-                .scene(&self.law, &self.coefficients, &self.rooms, 0.0, self.stamp);
+        let scene = self.world.scene(&self.particles, 0.0);
         for block in &mut self.blocks {
             block.finish(&scene, &self.scratch.memory)?;
         }
@@ -211,7 +202,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         scratch.rows.resize(count + 1, 0);
         scratch.partners.clear();
         scratch.reference.clear();
-        for (room, detector) in self.rooms.iter().zip(&mut self.detectors) {
+        for (room, detector) in self.world.rooms.iter().zip(&mut self.detectors) {
             let slots = room.slots.clone();
             let origin = room.motion.position;
             let positions = &self.particles.position[slots.clone()];
@@ -222,7 +213,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             )
             .from_origin(origin)
             .in_plane(room.cavity.is_planar())
-            .with_margin(room.margin);
+            .with_margin(room.margin + self.world.reach);
             scratch.proposals.clear();
             detector.detect(&bed, &mut scratch.proposals);
             scratch
@@ -283,11 +274,11 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 block.pairs.end_row();
                 block.border.end_row();
             }
-            for room in &self.rooms {
+            for room in &self.world.rooms {
                 let from = room.slots.start.max(block.slots.start);
                 let to = room.slots.end.min(block.slots.end);
                 for slot in from..to {
-                    let reach = self.particles.radius[slot] + room.margin;
+                    let reach = self.particles.radius[slot] + room.margin + self.world.reach;
                     let point = scratch.reference[slot];
                     for wall in 0..room.cavity.walls() {
                         if room.cavity.wall(wall, point).distance < reach {
@@ -324,16 +315,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         elapsed: f64,
         observer: &mut O,
     ) -> Result<(), StepError> {
-        let particles = &mut self.particles;
-        let mut force = std::mem::take(&mut particles.acceleration);
-        let mut torque = std::mem::take(&mut particles.angular_acceleration);
-        let scene = particles.scene(
-            &self.law,
-            &self.coefficients,
-            &self.rooms,
-            elapsed,
-            self.stamp,
-        );
+        let mut force = std::mem::take(&mut self.particles.acceleration);
+        let mut torque = std::mem::take(&mut self.particles.angular_acceleration);
+        let scene = self.world.scene(&self.particles, elapsed);
         for block in &mut self.blocks {
             let slots = block.slots.clone();
             let (force, torque) = (&mut force[slots.clone()], &mut torque[slots]);
@@ -347,15 +331,15 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
         // Sums of anything that is not finite are not finite.
         let mut sum = DVec3::ZERO;
-        for (force, inverse) in force.iter_mut().zip(&particles.inverse_mass) {
+        for (force, inverse) in force.iter_mut().zip(&self.particles.inverse_mass) {
             *force = *force * *inverse + self.gravity;
             sum += *force;
         }
-        for (torque, inverse) in torque.iter_mut().zip(&particles.inverse_inertia) {
+        for (torque, inverse) in torque.iter_mut().zip(&self.particles.inverse_inertia) {
             *torque *= *inverse;
         }
-        particles.acceleration = force;
-        particles.angular_acceleration = torque;
+        self.particles.acceleration = force;
+        self.particles.angular_acceleration = torque;
 
         self.wall_loads.fill(WallLoad::default());
         for block in &self.blocks {
@@ -393,7 +377,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     }
 
     fn escaped(&self, slot: usize, partner: super::Partner) -> StepError {
-        let room = &self.rooms[self.cavity_of(slot)];
+        let room = &self.world.rooms[self.world.cavity_of(slot)];
         StepError::Escaped {
             particle: self.particles.number[slot] as usize,
             wall: match partner {
@@ -405,9 +389,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     }
 
     fn overlaps(&self, block: &Block<L>) -> StepError {
-        let scene =
-            self.particles
-                .scene(&self.law, &self.coefficients, &self.rooms, 0.0, self.stamp);
+        let scene = self.world.scene(&self.particles, 0.0);
         let place = block.deepest(&scene);
         let (slot, other) = place.map_or((block.slots.start, super::Partner::Wall(0)), |place| {
             (place.slot, place.partner)
@@ -420,14 +402,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
     }
 
-    /// Number of the cavity whose particle is in `slot`.
-    pub(crate) fn cavity_of(&self, slot: usize) -> usize {
-        self.rooms.partition_point(|room| room.slots.end <= slot)
-    }
-
     /// The mount's accelerations under the loads on the walls.
     pub(crate) fn accelerate_mount(&mut self, time: f64) {
-        for (room, load) in self.rooms.iter().zip(&mut self.loads) {
+        for (room, load) in self.world.rooms.iter().zip(&mut self.loads) {
             let first = room.first_wall as usize;
             let walls = &self.wall_loads[first..first + room.cavity.walls() as usize];
             *load = walls.iter().map(|wall| wall.force).sum();
@@ -457,7 +434,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         observer: &mut O,
     ) -> Result<(), StepError> {
         self.place_containers(time)?;
-        if self.law.evaluation() == Evaluation::EveryStage {
+        if self.world.law.evaluation() == Evaluation::EveryStage {
             self.find_contacts(afresh)?;
             match stage {
                 Stage::Trial => self.evaluate_contacts::<(), false>(elapsed, &mut ())?,
@@ -477,7 +454,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     pub(crate) fn remembered(&self) -> [Vec<Remembered<L::Memory>>; 2] {
         let mut memory = [Vec::new(), Vec::new()];
         for block in &self.blocks {
-            block.remember(self.stamp, &mut memory);
+            block.remember(self.world.stamp, &mut memory);
         }
         memory[0].sort_unstable_by_key(Remembered::key);
         memory

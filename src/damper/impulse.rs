@@ -28,7 +28,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         self.strike_pairs(time_step, observer);
         self.strike_walls(time_step, observer);
         self.hold(time_step)?;
-        self.stamp = self.stamp.wrapping_add(1);
+        self.world.stamp = self.world.stamp.wrapping_add(1);
         self.accelerate_mount(self.time);
         self.check_overlaps()
     }
@@ -53,7 +53,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         scratch.rates.extend(ahead);
         scratch.gain.clear();
         let end = self.time + time_step;
-        for (cavity, room) in self.rooms.iter().enumerate() {
+        for (cavity, room) in self.world.rooms.iter().enumerate() {
             let ahead = self.mount.motion(end, coordinates, &scratch.rates, cavity);
             scratch.gain.push(ahead.velocity - room.motion.velocity);
         }
@@ -62,18 +62,12 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     }
 
     fn strike_pairs<O: Observer>(&mut self, time_step: f64, observer: &mut O) {
-        let sequential = self.law.evaluation() == Evaluation::Sequential;
+        let sequential = self.world.law.evaluation() == Evaluation::Sequential;
         let particles = &self.particles;
-        let scene = particles.scene(
-            &self.law,
-            &self.coefficients,
-            &self.rooms,
-            time_step,
-            self.stamp,
-        );
+        let scene = self.world.scene(&self.particles, time_step);
         let (velocity, spin) = (&mut self.scratch.velocity, &mut self.scratch.spin);
         for block in &mut self.blocks {
-            block.contacts = block.touching().0.len() + block.touching().1.len();
+            block.contacts = 0;
             block.largest_overlap = 0.0;
             block.escaped = None;
             for index in 0..block.touching().0.len() {
@@ -96,17 +90,19 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let memory = scene.law.advance(&kind, &pair.contact, &memory);
                 list.keep(touch.place, scene.stamp.wrapping_add(1), memory);
 
+                let touches = pair.contact.overlap > 0.0 || answer.normal != 0.0;
+                block.contacts += usize::from(touches);
                 block.largest_overlap = block.largest_overlap.max(pair.contact.overlap);
                 let (force, first, second) = pair.resolve(&answer);
                 velocity[i] += force * (time_step * particles.inverse_mass[i]);
                 velocity[j] -= force * (time_step * particles.inverse_mass[j]);
                 spin[i] += first * (time_step * particles.inverse_inertia[i]);
                 spin[j] += second * (time_step * particles.inverse_inertia[j]);
-                if observer.wants_contacts() {
+                if touches && observer.wants_contacts() {
                     observer.contact(&ContactEvent {
                         particle: particles.number[i] as usize,
                         partner: Partner::Particle(particles.number[j] as usize),
-                        cavity: self.rooms.partition_point(|room| room.slots.end <= i),
+                        cavity: self.world.rooms.partition_point(|room| room.slots.end <= i),
                         contact: pair.contact,
                         force: answer,
                     });
@@ -116,16 +112,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     }
 
     fn strike_walls<O: Observer>(&mut self, time_step: f64, observer: &mut O) {
-        let sequential = self.law.evaluation() == Evaluation::Sequential;
+        let sequential = self.world.law.evaluation() == Evaluation::Sequential;
         let degrees = self.mount.degrees();
         let particles = &self.particles;
-        let scene = particles.scene(
-            &self.law,
-            &self.coefficients,
-            &self.rooms,
-            time_step,
-            self.stamp,
-        );
+        let scene = self.world.scene(&self.particles, time_step);
         let (velocity, spin) = (&mut self.scratch.velocity, &mut self.scratch.spin);
         let rates = &mut self.scratch.rates;
         let gravity = self.gravity * time_step;
@@ -134,7 +124,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let touch = block.touching().1[index];
                 let (slot, wall) = (touch.first as usize, touch.second);
                 let cavity = scene.cavity_of_wall(wall);
-                let room = &self.rooms[cavity];
+                let room = &self.world.rooms[cavity];
                 let (distance, mut contact) = if sequential {
                     let coordinates = &self.mount_state.position[..degrees];
                     let container = self.mount.motion(self.time, coordinates, rates, cavity);
@@ -153,6 +143,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     .walls
                     .keep(touch.place, scene.stamp.wrapping_add(1), memory);
 
+                let touches = contact.overlap > 0.0 || answer.normal != 0.0;
+                block.contacts += usize::from(touches);
                 block.largest_overlap = block.largest_overlap.max(contact.overlap);
                 let partner = Partner::Wall(wall - room.first_wall);
                 if distance < 0.0 {
@@ -166,7 +158,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 self.mount.strike(cavity, -force * time_step, rates);
                 let place = particles.position[slot] - room.motion.position + arm;
                 self.wall_loads[wall as usize].react(force, answer.couple, place);
-                if observer.wants_contacts() {
+                if touches && observer.wants_contacts() {
                     observer.contact(&ContactEvent {
                         particle: particles.number[slot] as usize,
                         partner,

@@ -21,8 +21,46 @@ pub(crate) struct Room<C> {
     pub(crate) first_wall: u32,
     /// Where its container is, and how it moves.
     pub(crate) motion: Motion,
-    /// Gap in m up to which candidates are listed.
+    /// How much farther than the law's reach candidates are listed, m: they can be trusted while no
+    /// particle has moved by half of it.
     pub(crate) margin: f64,
+}
+
+/// The rules that contacts follow, and the rooms that they happen in.
+#[derive(Debug, Clone)]
+pub(crate) struct World<C, L: ContactLaw> {
+    pub(crate) law: L,
+    pub(crate) coefficients: Coefficients<L::Coefficients>,
+    pub(crate) rooms: Vec<Room<C>>,
+    /// Gap in m up to which contacts are evaluated.
+    pub(crate) reach: f64,
+    /// Number of the last accepted step; it wraps.
+    pub(crate) stamp: u32,
+}
+
+impl<C, L: ContactLaw> World<C, L> {
+    /// The scene of `particles`, `elapsed` seconds after memories were advanced.
+    pub(crate) fn scene<'a>(&'a self, particles: &'a Particles, elapsed: f64) -> Scene<'a, C, L> {
+        Scene {
+            law: &self.law,
+            coefficients: &self.coefficients,
+            rooms: &self.rooms,
+            position: &particles.position,
+            velocity: &particles.velocity,
+            spin: &particles.spin,
+            radius: &particles.radius,
+            species: &particles.species,
+            number: &particles.number,
+            reach: self.reach,
+            elapsed,
+            stamp: self.stamp,
+        }
+    }
+
+    /// Number of the cavity whose particle is in `slot`.
+    pub(crate) fn cavity_of(&self, slot: usize) -> usize {
+        self.rooms.partition_point(|room| room.slots.end <= slot)
+    }
 }
 
 /// The state that contacts are computed from, for reading alone.
@@ -36,6 +74,8 @@ pub(crate) struct Scene<'a, C, L: ContactLaw> {
     pub(crate) radius: &'a [f64],
     pub(crate) species: &'a [u32],
     pub(crate) number: &'a [u32],
+    /// Gap up to which contacts are evaluated, m.
+    pub(crate) reach: f64,
     /// Time since memories were advanced, s.
     pub(crate) elapsed: f64,
     /// Number of the last accepted step.
@@ -62,10 +102,10 @@ impl PairContact {
 }
 
 impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
-    /// Squared gap test: whether two particles overlap.
+    /// Whether two particles are within the law's reach.
     #[inline]
-    pub(crate) fn overlap(&self, first: usize, second: usize) -> bool {
-        let reach = self.radius[first] + self.radius[second];
+    pub(crate) fn is_reached(&self, first: usize, second: usize) -> bool {
+        let reach = self.radius[first] + self.radius[second] + self.reach;
         self.position[first].distance_squared(self.position[second]) < reach * reach
     }
 
@@ -174,31 +214,5 @@ impl WallLoad {
     pub(crate) fn add(&mut self, other: &Self) {
         self.force += other.force;
         self.torque += other.torque;
-    }
-}
-
-impl Particles {
-    /// A scene of these particles.
-    pub(crate) fn scene<'a, C, L: ContactLaw>(
-        &'a self,
-        law: &'a L,
-        coefficients: &'a Coefficients<L::Coefficients>,
-        rooms: &'a [Room<C>],
-        elapsed: f64,
-        stamp: u32,
-    ) -> Scene<'a, C, L> {
-        Scene {
-            law,
-            coefficients,
-            rooms,
-            position: &self.position,
-            velocity: &self.velocity,
-            spin: &self.spin,
-            radius: &self.radius,
-            species: &self.species,
-            number: &self.number,
-            elapsed,
-            stamp,
-        }
     }
 }

@@ -81,7 +81,7 @@ where
             acceleration: particles.acceleration.clone(),
             angular_acceleration: particles.angular_acceleration.clone(),
             mount: engine.mount_state.clone(),
-            containers: engine.rooms.iter().map(|room| room.motion).collect(),
+            containers: engine.world.rooms.iter().map(|room| room.motion).collect(),
             wall_loads: engine.wall_loads.clone(),
             loads: engine.loads.clone(),
             memory: engine.remembered(),
@@ -101,7 +101,11 @@ where
                 engine.mount_state.position.len(),
                 snapshot.mount.position.len(),
             ),
-            ("cavities", engine.rooms.len(), snapshot.containers.len()),
+            (
+                "cavities",
+                engine.world.rooms.len(),
+                snapshot.containers.len(),
+            ),
             ("walls", engine.wall_loads.len(), snapshot.wall_loads.len()),
         ] {
             if expected != found {
@@ -136,7 +140,7 @@ where
         engine.mount_state.clone_from(&snapshot.mount);
         engine.wall_loads.clone_from(&snapshot.wall_loads);
         engine.loads.clone_from(&snapshot.loads);
-        for (room, motion) in engine.rooms.iter_mut().zip(&snapshot.containers) {
+        for (room, motion) in engine.world.rooms.iter_mut().zip(&snapshot.containers) {
             room.motion = *motion;
         }
         engine.mount.resume(&snapshot.containers);

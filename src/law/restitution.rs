@@ -8,6 +8,9 @@ use crate::material::Materials;
 /// A step moves a particle at the reference speed by at most this fraction of the smaller radius.
 const TRAVEL: f64 = 0.2;
 
+/// Bodies that will touch within half a step are struck up to this multiple of the reference speed.
+const REACH: f64 = 2.0;
+
 /// The restitution coefficient turned into a force over one step (the paper's Sec. 4.3), for any
 /// masses: the coarse law.
 ///
@@ -147,11 +150,11 @@ impl ContactLaw for RestitutionImpulse {
             return ContactForce::new(impulse * rate, DVec3::ZERO);
         }
         let ahead = -contact.velocity_ahead.dot(normal);
-        if ahead <= 0.0 {
+        if ahead <= 0.0 || contact.overlap < -0.5 * approach.max(ahead) * contact.elapsed {
             return ContactForce::default();
         }
         let rebound = own.restitution * approach;
-        let correction = self.correction * contact.overlap * rate;
+        let correction = self.correction * contact.overlap.max(0.0) * rate;
         let impulse = (ahead + rebound.max(correction)) / yielding(normal);
         let mut force = ContactForce::new(impulse * rate, DVec3::ZERO);
         let slip = contact.velocity_ahead + ahead * normal;
@@ -177,6 +180,14 @@ impl ContactLaw for RestitutionImpulse {
             Evaluation::Simultaneous
         } else {
             Evaluation::Sequential
+        }
+    }
+
+    fn reach(&self, time_step: f64) -> f64 {
+        if self.literal {
+            0.0
+        } else {
+            REACH * self.reference_speed * time_step
         }
     }
 
