@@ -137,6 +137,13 @@ impl<L: ContactLaw> Block<L> {
         trusted
     }
 
+    /// Forgets what the last evaluation found.
+    pub(crate) const fn forget(&mut self) {
+        self.contacts = 0;
+        self.largest_overlap = 0.0;
+        self.escaped = None;
+    }
+
     /// Evaluates all contacts of the block. `force` and `torque` are those of its own slots.
     /// With `END`, contacts advance their memory to step `scene.stamp + 1`.
     pub(crate) fn evaluate<C: Cavity, O: Observer, const END: bool>(
@@ -150,9 +157,8 @@ impl<L: ContactLaw> Block<L> {
         torque.fill(DVec3::ZERO);
         self.loads.fill(WallLoad::default());
         self.parcels.clear();
+        self.forget();
         self.contacts = self.touching_walls;
-        self.largest_overlap = 0.0;
-        self.escaped = None;
         self.evaluate_pairs::<C, O, END>(scene, force, torque, observer);
         self.evaluate_border::<C, O, END>(scene, force, torque, observer);
         self.evaluate_walls::<C, O, END>(scene, force, torque, observer);

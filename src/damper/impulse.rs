@@ -13,6 +13,13 @@ use crate::law::{ContactLaw, Evaluation};
 use crate::mount::Mount;
 use crate::observer::{ContactEvent, Observer};
 
+/// The order in which the pairs of a block are struck.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Order {
+    Ascending,
+    Descending,
+}
+
 impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Strikes all contacts, and leaves the accelerations that hold over a step of `time_step`.
     ///
@@ -24,9 +31,16 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     ) -> Result<(), StepError> {
         self.place_containers(self.time)?;
         self.find_contacts(true)?;
+        for block in &mut self.blocks {
+            block.forget();
+        }
         self.prepare_impulses(time_step);
-        self.strike_pairs(time_step, observer);
+        // To and fro, so that an impulse crosses the bed in one step whichever way it goes.
+        self.strike_pairs(Order::Ascending, time_step, observer);
         self.strike_walls(time_step, observer);
+        if self.world.law.evaluation() == Evaluation::Sequential {
+            self.strike_pairs(Order::Descending, time_step, observer);
+        }
         self.hold(time_step)?;
         self.world.stamp = self.world.stamp.wrapping_add(1);
         self.accelerate_mount(self.time);
@@ -61,16 +75,18 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         scratch.rates.extend_from_slice(rates);
     }
 
-    fn strike_pairs<O: Observer>(&mut self, time_step: f64, observer: &mut O) {
+    fn strike_pairs<O: Observer>(&mut self, order: Order, time_step: f64, observer: &mut O) {
         let sequential = self.world.law.evaluation() == Evaluation::Sequential;
         let particles = &self.particles;
         let scene = self.world.scene(&self.particles, time_step);
         let (velocity, spin) = (&mut self.scratch.velocity, &mut self.scratch.spin);
         for block in &mut self.blocks {
-            block.contacts = 0;
-            block.largest_overlap = 0.0;
-            block.escaped = None;
-            for index in 0..block.touching().0.len() {
+            let count = block.touching().0.len();
+            for turn in 0..count {
+                let index = match order {
+                    Order::Ascending => turn,
+                    Order::Descending => count - 1 - turn,
+                };
                 let touch = block.touching().0[index];
                 let (i, j) = (touch.first as usize, touch.second as usize);
                 let mut pair = if sequential {

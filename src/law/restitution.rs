@@ -8,6 +8,9 @@ use crate::material::Materials;
 /// A step moves a particle at the reference speed by at most this fraction of the smaller radius.
 const TRAVEL: f64 = 0.2;
 
+/// Fraction of the overlap that a contact without restitution gives back per step.
+const SETTLING: f64 = 0.02;
+
 /// Bodies that will touch within half a step are struck up to this multiple of the reference speed.
 const REACH: f64 = 2.0;
 
@@ -19,11 +22,15 @@ const REACH: f64 = 2.0;
 /// step (Eq. 12). As it stands in the paper the law lets resting particles sink, by g dt/(1 + e) in
 /// velocity and layer, until they leave through the floor. The default form differs in this:
 ///
-/// - Contacts are struck one after the other, each with the velocities that those before it left.
+/// - Bodies are struck when they will touch within half a step, so that impacts come neither early nor
+///   late on the average, and overlaps stay small.
+/// - Contacts are struck one after the other, to and fro, each with the velocities that those before
+///   it left.
 /// - At a wall the impulse also takes up what gravity and the container's motion add over the step, so
 ///   that a resting particle rests.
-/// - The bodies part at e v, or at the speed that takes away a fraction of the overlap within the
-///   step, whichever is larger.
+/// - The bodies part at e times the approach speed or e times the speed that would have made their
+///   overlap within one step, whichever is larger: resting particles come out of each other again,
+///   and no impact gains energy by it.
 /// - Coulomb friction: the tangential impulse ends the slip if it can, and is mu J otherwise; it
 ///   turns the particles.
 ///
@@ -34,7 +41,6 @@ pub struct RestitutionImpulse {
     reference_speed: f64,
     friction: bool,
     literal: bool,
-    correction: f64,
 }
 
 /// What [`RestitutionImpulse`] prepares for two bodies.
@@ -62,7 +68,6 @@ impl RestitutionImpulse {
             reference_speed: 1.0,
             friction: true,
             literal: false,
-            correction: 0.2,
         }
     }
 
@@ -75,7 +80,6 @@ impl RestitutionImpulse {
         Self {
             friction: false,
             literal: true,
-            correction: 0.0,
             ..Self::new(materials)
         }
     }
@@ -93,15 +97,6 @@ impl RestitutionImpulse {
     /// If the speed is not positive and finite.
     pub fn reference_speed(mut self, speed: f64) -> Result<Self, ValueError> {
         self.reference_speed = Bound::Positive.check("reference speed (m/s)", speed)?;
-        Ok(self)
-    }
-
-    /// The same law taking away this fraction of the overlap per step (0.2 unless set).
-    ///
-    /// # Errors
-    /// If the fraction is not in 0 to 1.
-    pub fn overlap_correction(mut self, fraction: f64) -> Result<Self, ValueError> {
-        self.correction = Bound::Within(0.0, 1.0).check("overlap correction", fraction)?;
         Ok(self)
     }
 }
@@ -153,8 +148,8 @@ impl ContactLaw for RestitutionImpulse {
         if ahead <= 0.0 || contact.overlap < -0.5 * approach.max(ahead) * contact.elapsed {
             return ContactForce::default();
         }
-        let rebound = own.restitution * approach;
-        let correction = self.correction * contact.overlap.max(0.0) * rate;
+        let rebound = own.restitution * approach.max(0.0);
+        let correction = own.restitution.max(SETTLING) * contact.overlap.max(0.0) * rate;
         let impulse = (ahead + rebound.max(correction)) / yielding(normal);
         let mut force = ContactForce::new(impulse * rate, DVec3::ZERO);
         let slip = contact.velocity_ahead + ahead * normal;
