@@ -7,18 +7,18 @@ use super::block::Place;
 use super::engine::Engine;
 use super::error::StepError;
 use super::scene::WallLoad;
+use super::smallest_radius;
 use crate::cavity::Cavity;
 use crate::detector::Detector;
 use crate::law::{ContactLaw, Evaluation};
 use crate::mount::Mount;
 use crate::observer::{ContactEvent, Observer};
 
-/// The order in which the pairs of a block are struck.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Order {
-    Ascending,
-    Descending,
-}
+/// How often the contacts are gone through at the most.
+const ROUNDS: usize = 4;
+
+/// Approach within a step, as a fraction of the smallest radius, that needs no further round.
+const NEGLIGIBLE_APPROACH: f64 = 0.01;
 
 impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Strikes all contacts, and leaves the accelerations that hold over a step of `time_step`.
@@ -35,16 +35,28 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             block.forget();
         }
         self.prepare_impulses(time_step);
-        // To and fro, so that an impulse crosses the bed in one step whichever way it goes.
-        self.strike_pairs(Order::Ascending, time_step, observer);
-        self.strike_walls(time_step, observer);
-        if self.world.law.evaluation() == Evaluation::Sequential {
-            self.strike_pairs(Order::Descending, time_step, observer);
-        }
+        self.strike_in_rounds(time_step, observer);
         self.hold(time_step)?;
         self.world.stamp = self.world.stamp.wrapping_add(1);
         self.accelerate_mount(self.time);
         self.check_overlaps()
+    }
+
+    /// Rounds to and fro, so that an impulse crosses the bed in one step whichever way it goes, until
+    /// what is left of the approach cannot make a notable overlap.
+    fn strike_in_rounds<O: Observer>(&mut self, time_step: f64, observer: &mut O) {
+        let sequential = self.world.law.evaluation() == Evaluation::Sequential;
+        let negligible = NEGLIGIBLE_APPROACH * smallest_radius(&self.particles.kinds) / time_step;
+        for round in 0..if sequential { ROUNDS } else { 1 } {
+            let pairs = self.strike_pairs(round, time_step, observer);
+            let walls = self.strike_walls(time_step, observer);
+            if pairs.max(walls) < negligible {
+                break;
+            }
+        }
+        for block in &mut self.blocks {
+            block.contacts = block.touching().0.len() + block.touching().1.len();
+        }
     }
 
     /// Sets the working velocities, and looks ahead to what the containers gain over the step.
@@ -75,7 +87,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         scratch.rates.extend_from_slice(rates);
     }
 
-    fn strike_pairs<O: Observer>(&mut self, order: Order, time_step: f64, observer: &mut O) {
+    /// Strikes all pairs, in even rounds in ascending order, in odd ones in descending order. Returns
+    /// the largest approach speed met.
+    fn strike_pairs<O: Observer>(&mut self, round: usize, time_step: f64, observer: &mut O) -> f64 {
+        let mut largest = 0.0_f64;
         let sequential = self.world.law.evaluation() == Evaluation::Sequential;
         let particles = &self.particles;
         let scene = self.world.scene(&self.particles, time_step);
@@ -83,9 +98,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         for block in &mut self.blocks {
             let count = block.touching().0.len();
             for turn in 0..count {
-                let index = match order {
-                    Order::Ascending => turn,
-                    Order::Descending => count - 1 - turn,
+                let index = if round.is_multiple_of(2) {
+                    turn
+                } else {
+                    count - 1 - turn
                 };
                 let touch = block.touching().0[index];
                 let (i, j) = (touch.first as usize, touch.second as usize);
@@ -106,15 +122,16 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let memory = scene.law.advance(&kind, &pair.contact, &memory);
                 list.keep(touch.place, scene.stamp.wrapping_add(1), memory);
 
-                let touches = pair.contact.overlap > 0.0 || answer.normal != 0.0;
-                block.contacts += usize::from(touches);
+                if answer.normal > 0.0 {
+                    largest = largest.max(pair.contact.approach_speed());
+                }
                 block.largest_overlap = block.largest_overlap.max(pair.contact.overlap);
                 let (force, first, second) = pair.resolve(&answer);
                 velocity[i] += force * (time_step * particles.inverse_mass[i]);
                 velocity[j] -= force * (time_step * particles.inverse_mass[j]);
                 spin[i] += first * (time_step * particles.inverse_inertia[i]);
                 spin[j] += second * (time_step * particles.inverse_inertia[j]);
-                if touches && observer.wants_contacts() {
+                if answer.normal > 0.0 && observer.wants_contacts() {
                     observer.contact(&ContactEvent {
                         particle: particles.number[i] as usize,
                         partner: Partner::Particle(particles.number[j] as usize),
@@ -125,9 +142,12 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 }
             }
         }
+        largest
     }
 
-    fn strike_walls<O: Observer>(&mut self, time_step: f64, observer: &mut O) {
+    /// Strikes all walls. Returns the largest approach speed met.
+    fn strike_walls<O: Observer>(&mut self, time_step: f64, observer: &mut O) -> f64 {
+        let mut largest = 0.0_f64;
         let sequential = self.world.law.evaluation() == Evaluation::Sequential;
         let degrees = self.mount.degrees();
         let particles = &self.particles;
@@ -159,8 +179,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     .walls
                     .keep(touch.place, scene.stamp.wrapping_add(1), memory);
 
-                let touches = contact.overlap > 0.0 || answer.normal != 0.0;
-                block.contacts += usize::from(touches);
+                if answer.normal > 0.0 {
+                    largest = largest.max(contact.approach_speed());
+                }
                 block.largest_overlap = block.largest_overlap.max(contact.overlap);
                 let partner = Partner::Wall(wall - room.first_wall);
                 if distance < 0.0 {
@@ -174,7 +195,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 self.mount.strike(cavity, -force * time_step, rates);
                 let place = particles.position[slot] - room.motion.position + arm;
                 self.wall_loads[wall as usize].react(force, answer.couple, place);
-                if touches && observer.wants_contacts() {
+                if answer.normal > 0.0 && observer.wants_contacts() {
                     observer.contact(&ContactEvent {
                         particle: particles.number[slot] as usize,
                         partner,
@@ -185,6 +206,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 }
             }
         }
+        largest
     }
 
     /// Turns the velocities after the impulses into accelerations that lead to them.
