@@ -18,6 +18,9 @@ pub use contact::{Bodies, Body, Contact, ContactForce};
 pub use damper::{BuildError, Partner, StepError};
 pub use detector::{AllPairs, Bed, Detector, DetectorError, Pairs};
 pub use error::{Bound, ValueError};
-pub use law::{ContactLaw, Evaluation, LawError};
+pub use law::{
+    ContactLaw, Damping, ElasticImpact, Ending, Evaluation, Friction, HertzMindlin, HertzTsuji,
+    LawError, TangentialSpring,
+};
 pub use material::{Interaction, Material, MaterialId, Materials};
 pub use particle::Particle;
