@@ -8,6 +8,21 @@ use crate::contact::{Bodies, Contact, ContactForce};
 use crate::error::ValueError;
 use crate::material::MaterialId;
 
+#[cfg(test)]
+mod collision;
+mod damping;
+mod friction;
+mod hertz;
+mod hertz_mindlin;
+mod hertz_tsuji;
+mod normal;
+
+pub use damping::{Damping, Ending};
+pub use friction::Friction;
+pub use hertz::ElasticImpact;
+pub use hertz_mindlin::{HertzMindlin, TangentialSpring};
+pub use hertz_tsuji::HertzTsuji;
+
 /// When a law may be evaluated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]

@@ -23,7 +23,10 @@ pub use damper::{
 pub use detector::{AllPairs, Bed, Detector, DetectorError, Pairs};
 pub use error::{Bound, ValueError};
 pub use integrator::{Integrator, RungeKutta4, VelocityVerlet};
-pub use law::{ContactLaw, Evaluation, LawError, RestitutionImpulse};
+pub use law::{
+    ContactLaw, Damping, ElasticImpact, Ending, Evaluation, Friction, HertzMindlin, HertzTsuji,
+    LawError, RestitutionImpulse, TangentialSpring,
+};
 pub use material::{Interaction, Material, MaterialId, Materials};
 pub use mount::{Driven, Motion, Mount, Prescribed, SingleDof};
 pub use observer::{ContactEvent, Observer};

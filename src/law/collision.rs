@@ -1,0 +1,170 @@
+//! One contact by itself, for testing laws: two spheres, or a sphere above the wall y = 0.
+
+use glam::{DVec3, dvec3};
+
+use super::ContactLaw;
+use crate::contact::{Bodies, Body, Contact};
+use crate::damper::StepError;
+use crate::integrator::{Columns, Integrator, Motions, Stage, System};
+use crate::material::Materials;
+
+pub(super) struct Collision<'l, L: ContactLaw> {
+    law: &'l L,
+    bodies: Bodies,
+    coefficients: L::Coefficients,
+    memory: L::Memory,
+    position: Vec<DVec3>,
+    pub(super) velocity: Vec<DVec3>,
+    acceleration: Vec<DVec3>,
+    pub(super) spin: Vec<DVec3>,
+    spin_rate: Vec<DVec3>,
+    pub(super) touching: bool,
+    pub(super) peak: (f64, f64),
+}
+
+/// A sphere of the paper's Table 1 against a wall, and against itself.
+pub(super) fn paper_bodies() -> [Bodies; 2] {
+    let sphere = Body::sphere(3e-3, 0.2e-3, Materials::FIRST);
+    [
+        Bodies::new(sphere, Body::wall(Materials::FIRST)),
+        Bodies::new(sphere, sphere),
+    ]
+}
+
+impl<'l, L: ContactLaw> Collision<'l, L> {
+    /// The first body comes down on the second with `velocity` (m/s) and `spin` (rad/s); they just
+    /// touch.
+    pub(super) fn new(law: &'l L, bodies: Bodies, velocity: DVec3, spin: DVec3) -> Self {
+        let (count, height) = if bodies.at_wall() {
+            (1, bodies.first.radius)
+        } else {
+            (2, bodies.first.radius + bodies.second.radius)
+        };
+        let column = |first: DVec3| {
+            let mut column = vec![DVec3::ZERO; count];
+            column[0] = first;
+            column
+        };
+        Self {
+            law,
+            bodies,
+            coefficients: law.coefficients(&bodies).unwrap(),
+            memory: L::Memory::default(),
+            position: column(dvec3(0.0, height, 0.0)),
+            velocity: column(velocity),
+            acceleration: column(DVec3::ZERO),
+            spin: column(spin),
+            spin_rate: column(DVec3::ZERO),
+            touching: true,
+            peak: (0.0, 0.0),
+        }
+    }
+
+    fn body(&self, number: usize) -> Body {
+        [self.bodies.first, self.bodies.second][number]
+    }
+
+    fn contact(&self, elapsed: f64) -> Contact {
+        let reach = self.bodies.first.radius;
+        let mut contact = if self.bodies.at_wall() {
+            let lever = -reach * DVec3::Y;
+            let velocity = self.velocity[0] + self.spin[0].cross(lever);
+            Contact::new(DVec3::Y, reach - self.position[0].y, velocity)
+        } else {
+            let apart = self.position[0] - self.position[1];
+            let normal = apart.normalize();
+            let other = self.bodies.second.radius;
+            let turning = -(self.spin[0] * reach + self.spin[1] * other).cross(normal);
+            let velocity = self.velocity[0] - self.velocity[1] + turning;
+            Contact::new(normal, reach + other - apart.length(), velocity)
+        };
+        contact.spins = [self.spin[0], *self.spin.get(1).unwrap_or(&DVec3::ZERO)];
+        contact.elapsed = elapsed;
+        contact
+    }
+
+    pub(super) fn kinetic_energy(&self) -> f64 {
+        let energy = |n: usize| {
+            let Body { mass, radius, .. } = self.body(n);
+            let turning = 0.4 * radius * radius * self.spin[n].length_squared();
+            0.5 * mass * (self.velocity[n].length_squared() + turning)
+        };
+        (0..self.position.len()).map(energy).sum()
+    }
+
+    /// Normal relative velocity, positive when separating.
+    pub(super) fn separation_speed(&self) -> f64 {
+        -self.contact(0.0).approach_speed()
+    }
+
+    /// Steps until the bodies have parted; returns how long they touched.
+    pub(super) fn run(&mut self, integrator: &mut impl Integrator, time_step: f64) -> f64 {
+        let mut steps = 0;
+        while self.touching {
+            integrator.step(self, time_step).unwrap();
+            steps += 1;
+            assert!(steps < 1_000_000, "the bodies stay together");
+        }
+        f64::from(steps) * time_step
+    }
+
+    /// The same with `steps` to an elastic contact at the speed of approach.
+    pub(super) fn run_in(&mut self, integrator: &mut impl Integrator, steps: f64) -> f64 {
+        let slow = self.contact(0.0).approach_speed();
+        let materials = Materials::from(crate::Material::acrylic());
+        let impact = super::HertzTsuji::new(materials).elastic_impact(&self.bodies, slow);
+        self.run(integrator, impact.unwrap().duration() / steps)
+    }
+}
+
+impl<L: ContactLaw> System for Collision<'_, L> {
+    fn motions(&mut self) -> Motions<'_> {
+        Motions {
+            translation: Columns {
+                position: &mut self.position,
+                velocity: &mut self.velocity,
+                acceleration: &self.acceleration,
+            },
+            rotation: Columns {
+                position: &mut [],
+                velocity: &mut self.spin,
+                acceleration: &self.spin_rate,
+            },
+            mount: Columns {
+                position: &mut [],
+                velocity: &mut [],
+                acceleration: &[],
+            },
+        }
+    }
+
+    fn evaluate(&mut self, elapsed: f64, stage: Stage) -> Result<(), StepError> {
+        let contact = self.contact(elapsed);
+        self.acceleration.fill(DVec3::ZERO);
+        self.spin_rate.fill(DVec3::ZERO);
+        let touching = contact.overlap > 0.0;
+        if touching {
+            let answer = self.law.force(&self.coefficients, &contact, &self.memory);
+            let force = answer.normal * contact.normal + answer.tangential;
+            let signs = [1.0, -1.0];
+            for (n, sign) in signs.into_iter().enumerate().take(self.position.len()) {
+                let Body { mass, radius, .. } = self.body(n);
+                let torque = -radius * contact.normal.cross(answer.tangential);
+                self.acceleration[n] = sign * force / mass;
+                self.spin_rate[n] =
+                    (torque + sign * answer.couple) / (0.4 * mass * radius * radius);
+            }
+            self.peak.0 = self.peak.0.max(contact.overlap);
+            self.peak.1 = self.peak.1.max(answer.normal);
+        }
+        if stage == Stage::End {
+            self.touching = touching;
+            self.memory = if touching {
+                self.law.advance(&self.coefficients, &contact, &self.memory)
+            } else {
+                L::Memory::default()
+            };
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,250 @@
+//! The normal force that the strict laws share.
+
+use super::LawError;
+use super::damping::{Damping, Ending};
+use super::hertz::ElasticImpact;
+use crate::contact::{Bodies, Contact};
+use crate::error::{Bound, ValueError};
+use crate::material::{Interaction, Material, MaterialId, Materials};
+
+/// The most of a contact duration that one step may take. In a hexagonal packing as compressed as
+/// an impact at the reference speed, the fastest oscillation has sqrt 3 times the frequency of one
+/// contact; at a quarter, frequency times step is 1.75, under the 2 that Verlet's method bears.
+const PART_OF_CONTACT: f64 = 0.25;
+
+/// Hertz's spring with damping, for a table of materials.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct NormalForce {
+    materials: Materials,
+    damping: Damping,
+    ending: Ending,
+    reference_speed: f64,
+    /// The damping number of each ordered pair of materials, row by row.
+    numbers: Vec<Result<f64, ValueError>>,
+    count: usize,
+}
+
+/// Constants of the normal force of two bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct NormalCoefficients {
+    /// k in N/m^(3/2).
+    stiffness: f64,
+    /// c in N s/m^(3/2) or N s/m^(5/4).
+    damping: f64,
+}
+
+/// The normal force at one instant, in parts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Normal {
+    /// sqrt d in m^(1/2).
+    pub(super) root: f64,
+    /// Damping force per rate of overlap, in N s/m.
+    pub(super) resistance: f64,
+    /// The force in N, positive when pushing.
+    pub(super) force: f64,
+}
+
+impl NormalForce {
+    pub(super) fn new(materials: Materials) -> Self {
+        let known = |id: &u16| materials.get(MaterialId(*id)).is_some();
+        let count = (0..=u16::MAX).take_while(known).count();
+        Self {
+            materials,
+            damping: Damping::default(),
+            ending: Ending::default(),
+            reference_speed: 1.0,
+            numbers: Vec::new(),
+            count,
+        }
+        .numbered()
+    }
+
+    pub(super) fn with_damping(mut self, damping: Damping) -> Self {
+        self.damping = damping;
+        self.numbered()
+    }
+
+    pub(super) fn with_ending(mut self, ending: Ending) -> Self {
+        self.ending = ending;
+        self.numbered()
+    }
+
+    pub(super) fn with_reference_speed(mut self, speed: f64) -> Result<Self, ValueError> {
+        self.reference_speed = Bound::Positive.check("reference impact speed (m/s)", speed)?;
+        Ok(self)
+    }
+
+    /// Solves for the damping numbers here, once: there may be far more combinations of radius and
+    /// mass than of material.
+    fn numbered(mut self) -> Self {
+        self.numbers.clear();
+        let ids = || (0..self.count).map(|id| MaterialId(id as u16));
+        for (a, b) in ids().flat_map(|a| ids().map(move |b| (a, b))) {
+            let known = self
+                .numbers
+                .get(usize::from(b.0) * self.count + usize::from(a.0));
+            let number = known.copied().unwrap_or_else(|| {
+                let interaction = self.materials.interaction(a, b);
+                let restitution = interaction.map_or(f64::NAN, |given| given.restitution);
+                self.damping.number(restitution, self.ending)
+            });
+            self.numbers.push(number);
+        }
+        self
+    }
+
+    fn material(&self, id: MaterialId) -> Result<&Material, LawError> {
+        self.materials.get(id).ok_or(LawError::UnknownMaterial(id))
+    }
+
+    pub(super) fn materials(&self, bodies: &Bodies) -> Result<[&Material; 2], LawError> {
+        Ok([
+            self.material(bodies.first.material)?,
+            self.material(bodies.second.material)?,
+        ])
+    }
+
+    pub(super) fn interaction(&self, bodies: &Bodies) -> Result<Interaction, LawError> {
+        self.materials(bodies)?;
+        let (a, b) = (bodies.first.material, bodies.second.material);
+        let interaction = self.materials.interaction(a, b);
+        interaction.ok_or(LawError::UnknownMaterial(b))
+    }
+
+    /// The elastic impact of two bodies at `speed` (m/s).
+    pub(super) fn impact(&self, bodies: &Bodies, speed: f64) -> Result<ElasticImpact, LawError> {
+        let [first, second] = self.materials(bodies)?;
+        let modulus = first.effective_modulus(second);
+        let stiffness = 4.0 / 3.0 * modulus * bodies.effective_radius().sqrt();
+        Ok(ElasticImpact::new(
+            stiffness,
+            bodies.effective_mass(),
+            speed,
+        )?)
+    }
+
+    /// The elastic impact of two bodies at the reference speed.
+    pub(super) fn reference(&self, bodies: &Bodies) -> Result<ElasticImpact, LawError> {
+        self.impact(bodies, self.reference_speed)
+    }
+
+    pub(super) fn damping_coefficient(&self, bodies: &Bodies) -> Result<f64, LawError> {
+        let impact = self.reference(bodies)?;
+        let [row, column] = [bodies.first, bodies.second].map(|body| body.material.0);
+        let place = usize::from(row) * self.count + usize::from(column);
+        let unknown = LawError::UnknownMaterial(bodies.second.material);
+        let number = (*self.numbers.get(place).ok_or(unknown)?)?;
+        Ok(self.damping.coefficient(number, &impact))
+    }
+
+    /// Constants of the force, and the longest step in s that it bears.
+    pub(super) fn coefficients(
+        &self,
+        bodies: &Bodies,
+    ) -> Result<(NormalCoefficients, f64), LawError> {
+        let impact = self.reference(bodies)?;
+        let damping = self.damping_coefficient(bodies)?;
+        let coefficients = NormalCoefficients {
+            stiffness: impact.stiffness(),
+            damping,
+        };
+        let rate = self.damping.greatest_rate(damping, &impact);
+        let longest = (PART_OF_CONTACT * impact.duration()).min(1.0 / rate);
+        Ok((coefficients, longest))
+    }
+
+    /// The greatest damping rate of an impact at the reference speed, in 1/s.
+    pub(super) fn damping_rate(&self, bodies: &Bodies) -> Result<f64, LawError> {
+        let damping = self.damping_coefficient(bodies)?;
+        Ok(self
+            .damping
+            .greatest_rate(damping, &self.reference(bodies)?))
+    }
+
+    #[inline]
+    pub(super) fn at(&self, coefficients: &NormalCoefficients, contact: &Contact) -> Normal {
+        let root = contact.overlap.sqrt();
+        let shape = match self.damping {
+            Damping::Viscoelastic => root,
+            Damping::Tsuji => root.sqrt(),
+        };
+        let resistance = coefficients.damping * shape;
+        let spring = coefficients.stiffness * contact.overlap * root;
+        let force = spring + resistance * contact.approach_speed();
+        Normal {
+            root,
+            resistance,
+            force: match self.ending {
+                Ending::NeverPulling => force.max(0.0),
+                Ending::PullingAllowed => force,
+            },
+        }
+    }
+}
+
+/// The options and questions that the strict laws have in common. The law has the fields `normal`
+/// (a [`NormalForce`]) and `friction`.
+macro_rules! strict_law {
+    ($law:ty) => {
+        impl $law {
+            /// The same law with another damping force.
+            #[must_use]
+            pub fn damping(mut self, damping: $crate::law::Damping) -> Self {
+                self.normal = self.normal.with_damping(damping);
+                self
+            }
+
+            /// The same law with another end of contact.
+            #[must_use]
+            pub fn ending(mut self, ending: $crate::law::Ending) -> Self {
+                self.normal = self.normal.with_ending(ending);
+                self
+            }
+
+            /// The same law with the impact speed (m/s) at which the materials' restitution is met,
+            /// and which the time step is judged by.
+            ///
+            /// # Errors
+            /// If `speed` is not positive.
+            pub fn reference_speed(mut self, speed: f64) -> Result<Self, $crate::ValueError> {
+                self.normal = self.normal.with_reference_speed(speed)?;
+                Ok(self)
+            }
+
+            /// The force constant k = 4/3 E* sqrt(r*) of two bodies in N/m^(3/2): the paper's Eqs
+            /// (6) and (7) for any two radii and materials.
+            ///
+            /// # Errors
+            /// If a material is unknown or a number out of range.
+            pub fn normal_stiffness(&self, bodies: &$crate::Bodies) -> Result<f64, LawError> {
+                Ok(self.normal.reference(bodies)?.stiffness())
+            }
+
+            /// The damping coefficient c of two bodies, found from the restitution of their
+            /// materials at the reference speed, in N s/m^(3/2) (viscoelastic) or N s/m^(5/4)
+            /// (Tsuji).
+            ///
+            /// # Errors
+            /// If a material is unknown or a number out of range: restitution below
+            /// [`Damping::LEAST_RESTITUTION`](crate::Damping::LEAST_RESTITUTION), for instance.
+            pub fn damping_coefficient(&self, bodies: &$crate::Bodies) -> Result<f64, LawError> {
+                self.normal.damping_coefficient(bodies)
+            }
+
+            /// Duration, overlap and force of the head-on impact of two bodies at `speed` (m/s), as
+            /// far as elasticity goes.
+            ///
+            /// # Errors
+            /// If a material is unknown or a number out of range.
+            pub fn elastic_impact(
+                &self,
+                bodies: &$crate::Bodies,
+                speed: f64,
+            ) -> Result<$crate::law::ElasticImpact, LawError> {
+                self.normal.impact(bodies, speed)
+            }
+        }
+    };
+}
+
+pub(super) use strict_law;
