@@ -16,7 +16,10 @@ pub use glam;
 
 pub use contact::{Bodies, Body, Contact, ContactForce};
 pub use damper::{BuildError, Partner, StepError};
-pub use detector::{AllPairs, Bed, Detector, DetectorError, Pairs};
+pub use detector::{
+    AllPairs, Bed, CellGrid, Counted, Detector, DetectorError, LinkedCells, Neighbourhood, Pairs,
+    Skin,
+};
 pub use error::{Bound, ValueError};
 pub use law::{ContactLaw, Evaluation, LawError};
 pub use material::{Interaction, Material, MaterialId, Materials};
