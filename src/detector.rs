@@ -5,8 +5,16 @@ use glam::DVec3;
 use crate::error::ValueError;
 
 mod all_pairs;
+mod cell_grid;
+mod counted;
+mod linked_cells;
+mod skin;
 
 pub use all_pairs::AllPairs;
+pub use cell_grid::{CellGrid, Neighbourhood};
+pub use counted::Counted;
+pub use linked_cells::LinkedCells;
+pub use skin::Skin;
 
 /// The particles of one cavity, as a detector sees them. Numbers run from 0 to [`len`](Self::len).
 #[derive(Debug, Clone, Copy)]

@@ -20,7 +20,10 @@ pub use contact::{Bodies, Body, Contact, ContactForce};
 pub use damper::{
     BuildError, Builder, Damper, Partner, Reaction, RestoreError, Snapshot, StepError, WallLoad,
 };
-pub use detector::{AllPairs, Bed, Detector, DetectorError, Pairs};
+pub use detector::{
+    AllPairs, Bed, CellGrid, Counted, Detector, DetectorError, LinkedCells, Neighbourhood, Pairs,
+    Skin,
+};
 pub use error::{Bound, ValueError};
 pub use integrator::{Integrator, RungeKutta4, VelocityVerlet};
 pub use law::{

@@ -1,0 +1,69 @@
+use super::{Bed, Detector, DetectorError, Pairs};
+use crate::error::{Bound, ValueError};
+
+/// Makes the proposals of another detector last over many steps (Verlet's neighbour list).
+///
+/// The inner detector is asked for every pair with a gap below the skin, and is not asked again
+/// until some particle has moved by half the skin: until then no other pair can touch. A thick skin
+/// is rebuilt rarely and lists many pairs that do not touch; 0.1 to 0.4 radii is usual.
+///
+/// L. Verlet, Phys. Rev. 159 (1967) 98-103, doi 10.1103/PhysRev.159.98.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Skin<D> {
+    inner: D,
+    skin: f64,
+}
+
+impl<D> Skin<D> {
+    /// A skin of thickness `skin` (m) around `inner`, whose own skin it replaces.
+    ///
+    /// # Errors
+    /// If the thickness is not positive and finite.
+    pub fn new(inner: D, skin: f64) -> Result<Self, ValueError> {
+        Ok(Self {
+            inner,
+            skin: Bound::Positive.check("skin (m)", skin)?,
+        })
+    }
+
+    /// The detector inside.
+    #[must_use]
+    pub const fn inner(&self) -> &D {
+        &self.inner
+    }
+}
+
+impl<D: Detector> Detector for Skin<D> {
+    fn prepare(&mut self, bed: &Bed<'_>) -> Result<(), DetectorError> {
+        self.inner.prepare(bed)
+    }
+
+    fn detect(&mut self, bed: &Bed<'_>, pairs: &mut Pairs) {
+        self.inner.detect(bed, pairs);
+    }
+
+    fn skin(&self) -> f64 {
+        self.skin
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::AllPairs;
+
+    #[test]
+    fn a_skin_has_to_be_positive() {
+        for skin in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
+            assert!(Skin::new(AllPairs, skin).is_err(), "{skin}");
+        }
+    }
+
+    #[test]
+    fn the_outer_skin_counts() {
+        let inner = Skin::new(AllPairs, 1e-4).unwrap();
+        let outer = Skin::new(inner, 2e-4).unwrap();
+        assert_eq!(outer.skin().to_bits(), 2e-4_f64.to_bits());
+        assert_eq!(outer.inner().skin().to_bits(), 1e-4_f64.to_bits());
+    }
+}
