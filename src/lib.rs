@@ -11,6 +11,7 @@ mod law;
 mod material;
 pub mod mount;
 mod particle;
+mod random;
 
 pub use glam;
 
