@@ -3,10 +3,16 @@
 use glam::DVec3;
 
 mod cuboid;
+mod cylinder;
+mod disc;
 mod slot;
+mod sphere;
 
 pub use cuboid::Cuboid;
+pub use cylinder::Cylinder;
+pub use disc::Disc;
 pub use slot::Slot;
+pub use sphere::Sphere;
 
 /// Where a wall stands to a point inside the cavity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,10 +23,23 @@ pub struct WallPoint {
     pub distance: f64,
 }
 
+impl WallPoint {
+    /// The wall of a hollow sphere of `radius` about the origin; at the very centre, where every
+    /// direction is as good, the normal is -x.
+    #[inline]
+    fn inside_sphere(radius: f64, point: DVec3) -> Self {
+        Self {
+            normal: -point.normalize_or(DVec3::X),
+            distance: radius - point.length(),
+        }
+    }
+}
+
 /// The room that holds the particles: a set of numbered walls in the container's frame.
 ///
 /// # Using
-/// [`Slot`] holds motion to a plane, [`Cuboid`] is a box in space. A damper asks the cavity for
+/// [`Slot`] and [`Disc`] hold motion to a plane; [`Cuboid`], [`Cylinder`] and [`Sphere`] are rooms in
+/// space. A damper asks the cavity for
 /// everything it needs; user code only builds it.
 ///
 /// # Implementing
@@ -96,5 +115,111 @@ fn box_wall(low: DVec3, high: DVec3, number: u32, point: DVec3) -> WallPoint {
             normal: -DVec3::AXES[axis],
             distance: high[axis] - point[axis],
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec3;
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// The contract of [`Cavity`], at two points given within its bounds widened by half.
+    fn holds_the_contract(cavity: &impl Cavity, place: DVec3, step: DVec3) {
+        let [low, high] = cavity.bounds();
+        let size = (high - low).length();
+        let point = low + (high - low) * (place * 2.0 - 0.5);
+        let other = point
+            + step
+                * size
+                * if cavity.is_planar() {
+                    1.0 - DVec3::Z
+                } else {
+                    DVec3::ONE
+                };
+        let h = 1e-6 * size;
+        for number in 0..cavity.walls() {
+            let at = cavity.wall(number, point);
+            let normal = at.normal;
+            assert!(
+                (normal.length() - 1.0).abs() < 1e-14,
+                "wall {number} at {point}"
+            );
+            assert!(
+                !cavity.is_planar() || normal.z == 0.0,
+                "wall {number} at {point}"
+            );
+
+            let change = (cavity.wall(number, other).distance - at.distance).abs();
+            assert!(
+                change <= (other - point).length() + 1e-14 * size,
+                "wall {number} at {point}"
+            );
+
+            // The distance grows along the normal, one to one, short of the far side.
+            if at.distance.abs() < 0.1 * size {
+                let behind = cavity.wall(number, point - normal * h).distance;
+                let before = cavity.wall(number, point + normal * h).distance;
+                let growth = (before - behind) / (2.0 * h);
+                assert!(
+                    (growth - 1.0).abs() < 1e-6,
+                    "wall {number} at {point}: {growth}"
+                );
+                let foot = cavity.wall(number, point - normal * at.distance);
+                assert!(
+                    foot.distance.abs() < 1e-14 * size,
+                    "wall {number} at {point}"
+                );
+                assert!(
+                    (foot.normal - normal).length() < 1e-9,
+                    "wall {number} at {point}"
+                );
+            }
+        }
+        if clearance(cavity, point) > 0.0 {
+            assert!(point.cmpge(low).all() && point.cmple(high).all(), "{point}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn every_cavity_holds_the_contract(
+            place in prop::array::uniform3(0.0..1.0_f64),
+            step in prop::array::uniform3(-0.3..0.3_f64),
+            sizes in prop::array::uniform3(0.2..2.0_f64),
+        ) {
+            let (place, step) = (DVec3::from(place), DVec3::from(step));
+            let [a, b, c] = sizes;
+            let flat = dvec3(place.x, place.y, 0.25);
+            holds_the_contract(&Slot::new(a, b).unwrap(), flat, step);
+            holds_the_contract(&Disc::new(a).unwrap(), flat, step);
+            holds_the_contract(&Cuboid::new(dvec3(a, b, c)).unwrap(), place, step);
+            holds_the_contract(&Cylinder::new(a, b).unwrap(), place, step);
+            holds_the_contract(&Sphere::new(a).unwrap(), place, step);
+        }
+    }
+
+    #[test]
+    fn centre_and_axis_of_round_cavities_have_a_unit_normal() {
+        let sphere = Sphere::new(0.03).unwrap().wall(0, DVec3::ZERO);
+        let disc = Disc::new(0.03).unwrap().wall(0, DVec3::ZERO);
+        let side = Cylinder::new(0.03, 0.1).unwrap().wall(2, DVec3::Y * 0.05);
+        for wall in [sphere, disc, side] {
+            assert!((wall.normal.length() - 1.0).abs() < 1e-15, "{wall:?}");
+            assert!((wall.distance - 0.03).abs() < 1e-15);
+        }
+        assert!(disc.normal.z.abs() < 1e-15);
+        assert!(side.normal.y.abs() < 1e-15);
+        let near = Sphere::new(0.03).unwrap().wall(0, DVec3::X * 1e-310);
+        assert!((near.normal.length() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_size_that_is_not_positive_is_refused() {
+        assert!(Sphere::new(0.0).is_err());
+        assert!(Disc::new(f64::NAN).is_err());
+        assert!(Cylinder::new(1.0, -1.0).is_err());
+        assert!(Cylinder::new(f64::INFINITY, 1.0).is_err());
     }
 }

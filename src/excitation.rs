@@ -1,13 +1,51 @@
-//! Excitations of a mount.
+//! Excitations: what drives an oscillator, and the signals that they are made of.
+//!
+//! | signal | value |
+//! |---|---|
+//! | [`Harmonic`] | a sine |
+//! | [`Chirp`] | a sine that sweeps through a band |
+//! | [`BandLimitedNoise`] | random, of a given band and RMS |
+//! | [`Sampled`] | a measured record |
+//! | any closure `Fn(f64) -> [f64; 2]` | its own |
+//!
+//! Each of the named signals is an excitation by itself, a force in N, and [`Base`] makes any signal
+//! the displacement of the base in m.
 
-use std::f64::consts::TAU;
+mod chirp;
+mod harmonic;
+mod noise;
+mod sampled;
+mod signal;
 
-use crate::error::{Bound, ValueError};
+pub use chirp::Chirp;
+pub use harmonic::Harmonic;
+pub use noise::BandLimitedNoise;
+pub use sampled::{Sampled, SampledError};
+pub use signal::Signal;
 
 /// What drives an oscillator: an external force as a function of time, which may depend on the
 /// oscillator's support (base excitation).
 ///
-/// Any closure from time (s) to force (N) is an excitation, and `()` is none at all.
+/// # Using
+/// Any closure from time (s) to force (N) is an excitation, `()` is none at all, and a pair is the
+/// sum of both its parts. [`Harmonic`] and the other signals are forces in N; [`Base`] shakes the
+/// base instead.
+/// ```
+/// use particle_damper::excitation::{Base, Excitation, Harmonic};
+/// use particle_damper::mount::SingleDof;
+///
+/// // The paper's force, its base excitation, and both together with a constant pull.
+/// let force = Harmonic::new(0.25, 6.0)?;
+/// let base = Base(Harmonic::new(2e-3, 6.0)?);
+/// let mount = SingleDof::paper().excited_by(((force, base), |_time: f64| -0.1));
+/// assert_eq!(mount.excitation().force(0.0, 0.0, 123.4), -0.1);
+/// # Ok::<(), particle_damper::ValueError>(())
+/// ```
+///
+/// # Implementing
+/// 1. [`force`](Self::force) is a function of its arguments alone: an integrator asks for any time,
+///    in any order.
+/// 2. It is positive along the axis of the oscillator.
 pub trait Excitation {
     /// Force on the mass in N at `time` (s). `damping` (N s/m) and `stiffness` (N/m) are those of the
     /// support.
@@ -21,33 +59,93 @@ impl Excitation for () {
 }
 
 impl<F: Fn(f64) -> f64> Excitation for F {
+    #[inline]
     fn force(&self, time: f64, _damping: f64, _stiffness: f64) -> f64 {
         self(time)
     }
 }
 
-/// A sine: amplitude times sin(2 pi f t). As an excitation, the paper's f_d of Eq. (1).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Harmonic {
-    amplitude: f64,
-    angular_frequency: f64,
-}
-
-impl Harmonic {
-    /// A sine of `amplitude` and `frequency` (Hz).
-    ///
-    /// # Errors
-    /// If the amplitude is not finite, or the frequency is negative or not finite.
-    pub fn new(amplitude: f64, frequency: f64) -> Result<Self, ValueError> {
-        Ok(Self {
-            amplitude: Bound::Finite.check("amplitude", amplitude)?,
-            angular_frequency: TAU * Bound::NonNegative.check("frequency (Hz)", frequency)?,
-        })
+/// The sum of two excitations.
+impl<A: Excitation, B: Excitation> Excitation for (A, B) {
+    #[inline]
+    fn force(&self, time: f64, damping: f64, stiffness: f64) -> f64 {
+        self.0.force(time, damping, stiffness) + self.1.force(time, damping, stiffness)
     }
 }
 
-impl Excitation for Harmonic {
-    fn force(&self, time: f64, _damping: f64, _stiffness: f64) -> f64 {
-        self.amplitude * (self.angular_frequency * time).sin()
+/// An excitation chosen at run time.
+impl Excitation for Box<dyn Excitation + Send + Sync> {
+    fn force(&self, time: f64, damping: f64, stiffness: f64) -> f64 {
+        (**self).force(time, damping, stiffness)
+    }
+}
+
+macro_rules! force_in_newtons {
+    ($($signal:ty),+) => {$(
+        /// The signal as a force in N.
+        impl Excitation for $signal {
+            #[inline]
+            fn force(&self, time: f64, _damping: f64, _stiffness: f64) -> f64 {
+                self.value(time)
+            }
+        }
+    )+};
+}
+
+force_in_newtons!(Harmonic, Chirp, BandLimitedNoise, Sampled);
+
+/// Base excitation: spring and dashpot hang on a base that is displaced by the signal Y (m), which
+/// drives the mass with K Y + C Y' (the paper's Sec. 2). The oscillator's coordinate stays the
+/// absolute displacement of the mass.
+///
+/// A base known by its *acceleration* (an earthquake record) is integrated first,
+/// [`Sampled::integral`]. The usual shortcut, a force -M Y" on the mass with the coordinate counted
+/// from the base, is not offered: the particles would not feel it.
+///
+/// ```
+/// use particle_damper::excitation::{Base, Excitation};
+///
+/// // A base that moves away steadily.
+/// let base = Base(|t: f64| [0.5 * t, 0.5]);
+/// assert_eq!(base.force(2.0, 3.0, 10.0), 10.0 * 1.0 + 3.0 * 0.5);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Base<S>(pub S);
+
+impl<S: Signal> Excitation for Base<S> {
+    #[inline]
+    fn force(&self, time: f64, damping: f64, stiffness: f64) -> f64 {
+        let [displacement, velocity] = self.0.at(time);
+        stiffness * displacement + damping * velocity
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+
+    #[test]
+    fn a_harmonic_base_gives_the_force_of_the_paper() {
+        let (y, f, k, c) = (2e-3, 6.0, 123.4, 0.08);
+        let base = Base(Harmonic::new(y, f).unwrap());
+        for step in 0..100 {
+            let t = f64::from(step) * 1.37e-2;
+            let w = TAU * f;
+            let expected = k * y * (w * t).sin() + c * y * w * (w * t).cos();
+            assert!((base.force(t, c, k) - expected).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn a_pair_is_the_sum_and_a_box_is_what_it_holds() {
+        let harmonic = Harmonic::new(0.25, 6.0).unwrap();
+        let pair = (harmonic, |t: f64| 2.0 * t);
+        let alone = harmonic.force(0.3, 0.0, 0.0);
+        assert!((pair.force(0.3, 0.0, 0.0) - (alone + 0.6)).abs() < 1e-15);
+        let boxed: Box<dyn Excitation + Send + Sync> = Box::new(Base(harmonic));
+        let base = Base(harmonic).force(0.3, 1.0, 2.0);
+        assert!((boxed.force(0.3, 1.0, 2.0) - base).abs() < 1e-15);
     }
 }

@@ -12,6 +12,7 @@ mod material;
 pub mod mount;
 mod observer;
 mod particle;
+mod random;
 
 pub use glam;
 
