@@ -233,7 +233,7 @@ fn every(c: &mut Criterion, group: &str, filling: &Filling) {
 /// What the wrappers add to the detector inside.
 fn wrapped(c: &mut Criterion) {
     let filling = Filling::slot(60);
-    let skin = Skin::new(LinkedCells::new(), 0.2 * RADIUS).unwrap();
+    let skin = Skin::new(LinkedCells::new(), 0.2).unwrap();
     measure(c, "wrapped", "linked_cells", LinkedCells::new(), &filling);
     measure(c, "wrapped", "skin", skin, &filling);
     measure(

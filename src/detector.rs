@@ -153,6 +153,11 @@ impl Pairs {
         &self.found
     }
 
+    /// Memory in bytes that the proposals have reserved.
+    pub(crate) fn reserved_bytes(&self) -> usize {
+        size_of::<[u32; 2]>() * self.found.capacity()
+    }
+
     /// Forgets all proposals and keeps the memory they stood in.
     pub fn clear(&mut self) {
         self.found.clear();
@@ -220,9 +225,9 @@ pub trait Detector {
     /// Proposes every pair whose gap is below the bed's margin, once.
     fn detect(&mut self, bed: &Bed<'_>, pairs: &mut Pairs);
 
-    /// The skin in m: proposals are kept until some particle has moved by half of it in the
-    /// container's frame. Zero asks for new ones every step.
-    fn skin(&self) -> f64 {
+    /// The skin in m for a bed whose smallest particle has `radius` (m): proposals are kept until some
+    /// particle has moved by half of it in the container's frame. Zero asks for new ones every step.
+    fn skin(&self, _radius: f64) -> f64 {
         0.0
     }
 }
@@ -238,8 +243,8 @@ macro_rules! forward_detector {
                 (**self).detect(bed, pairs);
             }
 
-            fn skin(&self) -> f64 {
-                (**self).skin()
+            fn skin(&self, radius: f64) -> f64 {
+                (**self).skin(radius)
             }
         }
     };

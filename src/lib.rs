@@ -6,6 +6,7 @@ mod damper;
 pub mod detector;
 mod error;
 pub mod excitation;
+mod filling;
 pub mod integrator;
 pub mod law;
 mod material;
@@ -26,6 +27,7 @@ pub use detector::{
     Skin,
 };
 pub use error::{Bound, ValueError};
+pub use filling::{Filling, FillingError};
 pub use integrator::{Integrator, RungeKutta4, VelocityVerlet};
 pub use law::{
     ContactLaw, Damping, ElasticImpact, Ending, Evaluation, Friction, HertzMindlin, HertzTsuji,

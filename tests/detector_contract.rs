@@ -228,7 +228,7 @@ contract! {
     cell_grid_in_space: |case| CellGrid::in_space(case.cells).unwrap();
     paper_grid: |_| CellGrid::paper();
     linked_cells: |_| LinkedCells::new();
-    skin: |_| Skin::new(LinkedCells::new(), 1e-3).unwrap();
+    skin: |_| Skin::new(LinkedCells::new(), 0.3).unwrap();
     counted: |_| Counted::new(CellGrid::paper());
     boxed: |_| Box::new(LinkedCells::new()) as Box<dyn Detector>;
 }

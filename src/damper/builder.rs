@@ -9,7 +9,7 @@ use super::particles::Particles;
 use super::scene::{Room, WallLoad, World};
 use super::{Damper, smallest_radius};
 use crate::cavity::Cavity;
-use crate::detector::{AllPairs, Bed, Detector};
+use crate::detector::{Bed, Detector, LinkedCells, Skin};
 use crate::error::Bound;
 use crate::integrator::{Integrator, Stage, VelocityVerlet};
 use crate::law::{ContactLaw, Evaluation};
@@ -18,7 +18,7 @@ use crate::mount::{Driven, Motion, Mount};
 use crate::particle::Particle;
 
 /// Overlaps up to this fraction of the smallest radius are taken for contacts of a settled bed.
-const INITIAL_OVERLAP: f64 = 0.01;
+const INITIAL_OVERLAP: f64 = 0.05;
 
 /// Candidates without a skin are listed up to this fraction of the smallest radius, so that they
 /// last over the stages of a step.
@@ -27,7 +27,7 @@ const STAGE_MARGIN: f64 = 0.05;
 /// Puts a [`Damper`] together.
 #[derive(Debug, Clone)]
 #[must_use]
-pub struct Builder<C, L, M = Driven, D = AllPairs, I = VelocityVerlet> {
+pub struct Builder<C, L, M = Driven, D = Skin<LinkedCells>, I = VelocityVerlet> {
     cavities: Vec<C>,
     law: L,
     mount: M,
@@ -48,7 +48,7 @@ impl<C, L> Builder<C, L> {
             cavities: vec![cavity],
             law,
             mount: Driven::default(),
-            detector: AllPairs,
+            detector: Skin::default(),
             integrator: VelocityVerlet::default(),
             gravity: DVec3::NEG_Y * 9.81,
             time_step: None,
@@ -126,7 +126,7 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
         self
     }
 
-    /// Largest overlap at the start, as a fraction of the smallest radius; 0.01 unless set.
+    /// Largest overlap at the start, as a fraction of the smallest radius; 0.05 unless set.
     pub const fn initial_overlap(mut self, fraction: f64) -> Self {
         self.initial_overlap = fraction;
         self
@@ -293,11 +293,12 @@ where
     }
 
     fn rooms(&mut self, smallest_radius: f64) -> Vec<Room<C>> {
-        let margin = self.detector.skin().max(if smallest_radius.is_finite() {
-            STAGE_MARGIN * smallest_radius
+        let margin = if smallest_radius.is_finite() {
+            let skin = self.detector.skin(smallest_radius);
+            skin.max(STAGE_MARGIN * smallest_radius)
         } else {
             0.0
-        });
+        };
         let (mut slot, mut wall) = (0, 0);
         let mut rooms = Vec::new();
         for (number, cavity) in std::mem::take(&mut self.cavities).into_iter().enumerate() {

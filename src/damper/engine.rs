@@ -62,6 +62,18 @@ pub(crate) struct Scratch<L: ContactLaw> {
     pub(crate) gain: Vec<DVec3>,
 }
 
+impl<L: ContactLaw> Scratch<L> {
+    /// Memory in bytes that it has reserved.
+    pub(crate) fn reserved_bytes(&self) -> usize {
+        let vectors = [&self.reference, &self.velocity, &self.spin];
+        let remembered = self.memory.iter().map(Vec::capacity).sum::<usize>();
+        size_of::<DVec3>() * vectors.map(Vec::capacity).iter().sum::<usize>()
+            + size_of::<u32>() * (self.rows.capacity() + self.partners.capacity())
+            + size_of::<Remembered<L::Memory>>() * remembered
+            + self.proposals.reserved_bytes()
+    }
+}
+
 impl<L: ContactLaw> Default for Scratch<L> {
     fn default() -> Self {
         Self {
@@ -137,7 +149,11 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Lists the pairs and walls that touch now. With `afresh`, candidates without a skin are listed
     /// anew first; candidates that can no longer be trusted always are.
     pub(crate) fn find_contacts(&mut self, afresh: bool) -> Result<(), StepError> {
-        let skinless = afresh && self.detectors.iter().any(|detector| detector.skin() == 0.0);
+        let skinless = afresh
+            && self
+                .detectors
+                .iter()
+                .any(|detector| detector.skin(1.0) == 0.0);
         if skinless || !self.scratch.listed || !self.narrow() {
             self.detect()?;
             self.narrow();

@@ -97,6 +97,22 @@ impl Particles {
         self.position.len()
     }
 
+    /// Memory in bytes that the columns have reserved.
+    pub(crate) fn reserved_bytes(&self) -> usize {
+        let vectors = [
+            &self.position,
+            &self.velocity,
+            &self.spin,
+            &self.acceleration,
+            &self.angular_acceleration,
+        ];
+        let scalars = [&self.radius, &self.inverse_mass, &self.inverse_inertia];
+        let numbers = [&self.species, &self.number, &self.slot];
+        size_of::<DVec3>() * vectors.map(Vec::capacity).iter().sum::<usize>()
+            + size_of::<f64>() * scalars.map(Vec::capacity).iter().sum::<usize>()
+            + size_of::<u32>() * numbers.map(Vec::capacity).iter().sum::<usize>()
+    }
+
     /// The particle in a slot, in cavity `cavity`.
     pub(crate) fn particle(&self, slot: usize, cavity: u32) -> Particle {
         let body = self.kinds[self.species[slot] as usize];

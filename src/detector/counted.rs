@@ -50,8 +50,8 @@ impl<D: Detector> Detector for Counted<D> {
         self.proposals += (pairs.as_slice().len() - before) as u64;
     }
 
-    fn skin(&self) -> f64 {
-        self.inner.skin()
+    fn skin(&self, radius: f64) -> f64 {
+        self.inner.skin(radius)
     }
 }
 
@@ -80,7 +80,7 @@ mod tests {
 
     #[test]
     fn the_skin_shows_through() {
-        let counted = Counted::new(Skin::new(AllPairs, 1e-4).unwrap());
-        assert_eq!(counted.skin().to_bits(), 1e-4_f64.to_bits());
+        let counted = Counted::new(Skin::new(AllPairs, 0.2).unwrap());
+        assert_eq!(counted.skin(1e-3).to_bits(), 2e-4_f64.to_bits());
     }
 }

@@ -11,18 +11,19 @@ use crate::error::{Bound, ValueError};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Skin<D> {
     inner: D,
-    skin: f64,
+    thickness: f64,
 }
 
 impl<D> Skin<D> {
-    /// A skin of thickness `skin` (m) around `inner`, whose own skin it replaces.
+    /// A skin around `inner`, whose own skin it replaces. `thickness` is counted in radii of the
+    /// smallest particle.
     ///
     /// # Errors
     /// If the thickness is not positive and finite.
-    pub fn new(inner: D, skin: f64) -> Result<Self, ValueError> {
+    pub fn new(inner: D, thickness: f64) -> Result<Self, ValueError> {
         Ok(Self {
             inner,
-            skin: Bound::Positive.check("skin (m)", skin)?,
+            thickness: Bound::Positive.check("skin (smallest radii)", thickness)?,
         })
     }
 
@@ -30,6 +31,16 @@ impl<D> Skin<D> {
     #[must_use]
     pub const fn inner(&self) -> &D {
         &self.inner
+    }
+}
+
+impl<D: Default> Default for Skin<D> {
+    /// A skin of a third of the smallest radius.
+    fn default() -> Self {
+        Self {
+            inner: D::default(),
+            thickness: 1.0 / 3.0,
+        }
     }
 }
 
@@ -42,8 +53,8 @@ impl<D: Detector> Detector for Skin<D> {
         self.inner.detect(bed, pairs);
     }
 
-    fn skin(&self) -> f64 {
-        self.skin
+    fn skin(&self, radius: f64) -> f64 {
+        self.thickness * radius
     }
 }
 
@@ -61,9 +72,9 @@ mod tests {
 
     #[test]
     fn the_outer_skin_counts() {
-        let inner = Skin::new(AllPairs, 1e-4).unwrap();
-        let outer = Skin::new(inner, 2e-4).unwrap();
-        assert_eq!(outer.skin().to_bits(), 2e-4_f64.to_bits());
-        assert_eq!(outer.inner().skin().to_bits(), 1e-4_f64.to_bits());
+        let inner = Skin::new(AllPairs, 0.1).unwrap();
+        let outer = Skin::new(inner, 0.2).unwrap();
+        assert_eq!(outer.skin(1e-3).to_bits(), 2e-4_f64.to_bits());
+        assert_eq!(outer.inner().skin(1e-3).to_bits(), 1e-4_f64.to_bits());
     }
 }

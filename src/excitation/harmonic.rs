@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use super::Signal;
 use crate::error::{Bound, ValueError};
 
-/// A sine, A sin(2 pi f t + phi). As a force, the paper's f_d of Eq. (1).
+/// A sine, A sin(2 pi f t + phi). As a force, the paper's `f_d` of Eq. (1).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Harmonic {
     amplitude: f64,

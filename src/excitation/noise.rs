@@ -7,11 +7,11 @@ use crate::random::Random;
 /// Stationary, nearly Gaussian noise with a flat spectrum between two frequencies: a sum of sines by
 /// spectral representation (Shinozuka & Deodatis 1991, doi 10.1115/1.3119501).
 ///
-/// value = RMS sqrt(2 / n) sum of sin(2 pi f_i t + phi_i), i = 1 ... n. The band is cut into n equal
-/// slices, f_i is uniform in the i-th of them, so that the noise does not repeat itself, and phi_i is
-/// uniform in a turn. The RMS is that of a long time, many times n / (f_high - f_low).
+/// `RMS sqrt(2 / n) sum of sin(2 pi f_i t + phi_i)`, i = 1 ... n. The band is cut into n equal slices;
+/// `f_i` is uniform in the i-th of them, so that the noise does not repeat itself, and `phi_i` is
+/// uniform in a turn. The RMS is that of a long time, many times n over the width of the band.
 ///
-/// One value costs n sines. The same seed gives the same f_i and phi_i to the bit everywhere; the
+/// One value costs n sines. The same seed gives the same `f_i` and `phi_i` to the bit everywhere; the
 /// sines are those of the platform.
 ///
 /// ```

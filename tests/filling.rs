@@ -1,0 +1,269 @@
+//! Filling a cavity: no overlap, the same bits from the same seed, and an error where there is no
+//! room.
+
+#![allow(clippy::unwrap_used)]
+
+use glam::{DVec3, dvec3};
+use particle_damper::cavity::{Cavity, Cuboid, Cylinder, Disc, Slot, Sphere, WallPoint};
+use particle_damper::{Filling, FillingError, Materials, Particle, ValueError};
+use proptest::prelude::*;
+
+fn ball(radius: f64) -> Particle {
+    Particle::with_density(radius, 1190.0).unwrap()
+}
+
+/// Every gap to a wall and to another particle is positive.
+fn assert_apart<C: Cavity + ?Sized>(cavity: &C, bed: &[Particle]) {
+    for (number, particle) in bed.iter().enumerate() {
+        for wall in 0..cavity.walls() {
+            let gap = cavity.wall(wall, particle.position).distance - particle.radius;
+            assert!(gap > 0.0, "particle {number}, wall {wall}: gap {gap}");
+        }
+        assert!(!cavity.is_planar() || particle.position.z == 0.0);
+    }
+    // Sorted along x, so that a large bed is checked in no time.
+    let mut order: Vec<&Particle> = bed.iter().collect();
+    order.sort_by(|a, b| a.position.x.total_cmp(&b.position.x));
+    let widest = bed.iter().map(|p| p.radius).fold(0.0, f64::max);
+    for (number, a) in order.iter().enumerate() {
+        for b in &order[number + 1..] {
+            if b.position.x - a.position.x > a.radius + widest {
+                break;
+            }
+            let gap = a.position.distance(b.position) - a.radius - b.radius;
+            assert!(
+                gap > 0.0,
+                "gap {gap} between {} and {}",
+                a.position,
+                b.position
+            );
+        }
+    }
+}
+
+fn bits(bed: &[Particle]) -> Vec<[u64; 3]> {
+    bed.iter()
+        .map(|p| p.position.to_array().map(f64::to_bits))
+        .collect()
+}
+
+fn cavities(a: f64, b: f64, c: f64) -> [Box<dyn Cavity>; 5] {
+    [
+        Box::new(Slot::new(a, b).unwrap()),
+        Box::new(Disc::new(0.5 * a).unwrap()),
+        Box::new(Cuboid::new(dvec3(a, b, c)).unwrap()),
+        Box::new(Cylinder::new(0.5 * a, b).unwrap()),
+        Box::new(Sphere::new(0.5 * a).unwrap()),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn a_bed_has_no_overlap_and_the_same_bits_again_or_is_refused(
+        sizes in prop::array::uniform3(4.0..40.0_f64),
+        kinds in prop::collection::vec((0..300_usize, 0.4..4.0_f64), 1..4),
+        down in prop::array::uniform3(-1.0..1.0_f64),
+        number in 0..5_usize,
+        seed in any::<u64>(),
+    ) {
+        let [a, b, c] = sizes;
+        let cavity = &cavities(a, b, c)[number];
+        let mut filling = Filling::new(seed).down(DVec3::from(down));
+        for &(count, radius) in &kinds {
+            filling = filling.with(count, ball(radius));
+        }
+        let wanted: usize = kinds.iter().map(|kind| kind.0).sum();
+        match filling.fill(cavity.as_ref()) {
+            Ok(bed) => {
+                prop_assert_eq!(bed.len(), wanted);
+                assert_apart(cavity.as_ref(), &bed);
+                let radii = kinds.iter().flat_map(|&(count, r)| std::iter::repeat_n(r, count));
+                prop_assert!(bed.iter().map(|p| p.radius).eq(radii));
+                let again = filling.fill(cavity.as_ref()).unwrap();
+                prop_assert_eq!(bits(&bed), bits(&again));
+            }
+            Err(FillingError::NoRoom { wanted: asked, placed, .. }) => {
+                prop_assert_eq!(asked, wanted);
+                prop_assert!(placed < wanted);
+            }
+            Err(FillingError::TooMuch { volume, room, .. }) => prop_assert!(volume > room),
+            Err(other) => prop_assert!(false, "{}", other),
+        }
+    }
+
+    /// A cavity whose solid part is below a quarter holds any mix of sizes well below its own.
+    #[test]
+    fn a_loose_bed_is_never_refused(
+        counts in prop::array::uniform3(0..60_usize),
+        number in 0..5_usize,
+        seed in any::<u64>(),
+    ) {
+        let cavity = &cavities(40.0, 40.0, 40.0)[number];
+        let mut filling = Filling::new(seed);
+        for (count, radius) in counts.into_iter().zip([0.6, 0.9, 1.5]) {
+            filling = filling.with(count / if cavity.is_planar() { 2 } else { 1 }, ball(radius));
+        }
+        assert_apart(cavity.as_ref(), &filling.fill(cavity.as_ref()).unwrap());
+    }
+}
+
+#[test]
+fn the_paper_slot_holds_every_bed_of_the_paper_and_what_close_rows_hold() {
+    let slot = Slot::paper();
+    for count in [0, 1, 20, 40, 60, 80, 100, 150, 162] {
+        let bed = Filling::new(7).with(count, ball(3e-3)).fill(&slot).unwrap();
+        assert_eq!(bed.len(), count);
+        assert_apart(&slot, &bed);
+    }
+    // Eighteen rows of nine.
+    let refused = Filling::new(7)
+        .with(163, ball(3e-3))
+        .fill(&slot)
+        .unwrap_err();
+    assert_eq!(
+        refused,
+        FillingError::NoRoom {
+            wanted: 163,
+            placed: 162,
+            radius: 3e-3
+        }
+    );
+    assert_eq!(
+        refused.to_string(),
+        "found room for 162 of 163 particles; no room for one of radius 0.003 m"
+    );
+}
+
+#[test]
+fn particles_start_near_the_end_that_is_down() {
+    let slot = Slot::paper();
+    let filling = Filling::new(3).with(20, ball(3e-3));
+    let bed = filling.fill(&slot).unwrap();
+    assert!(bed.iter().all(|p| p.position.y < 0.02));
+    let bed = filling.clone().down(DVec3::X * 9.81).fill(&slot).unwrap();
+    assert!(bed.iter().all(|p| p.position.x > 0.04));
+    let cuboid = Cuboid::new(dvec3(0.1, 0.2, 0.3)).unwrap();
+    let bed = filling.down(DVec3::NEG_Z).fill(&cuboid).unwrap();
+    assert!(bed.iter().all(|p| p.position.z < 0.02));
+}
+
+#[test]
+fn sizes_are_mixed_through_the_bed() {
+    let slot = Slot::new(0.1, 0.2).unwrap();
+    let bed = Filling::new(5)
+        .with(300, ball(1.5e-3))
+        .with(60, ball(3e-3))
+        .fill(&slot)
+        .unwrap();
+    let height =
+        |bed: &[Particle]| bed.iter().map(|p| p.position.y).sum::<f64>() / bed.len() as f64;
+    let (small, large) = (height(&bed[..300]), height(&bed[300..]));
+    assert!((small / large - 1.0).abs() < 0.35, "{small} {large}");
+}
+
+#[test]
+fn another_seed_gives_another_bed_and_the_same_one_the_same_bits_for_good() {
+    let slot = Slot::paper();
+    let bed = |seed| {
+        let bed = Filling::new(seed).with(60, ball(3e-3)).fill(&slot).unwrap();
+        bits(&bed)
+    };
+    assert_eq!(bed(1), bed(1));
+    assert_ne!(bed(1), bed(2));
+    let digest = bed(1)
+        .concat()
+        .into_iter()
+        .fold(0_u64, |sum, bits| sum.rotate_left(5) ^ bits);
+    assert_eq!(
+        digest, 0xc4d2_1e31_74c1_3cd2,
+        "the beds of all seeds have changed: {digest:#x}"
+    );
+}
+
+#[test]
+fn prototypes_keep_all_but_their_position() {
+    let prototype = ball(3e-3)
+        .of(Materials::FIRST)
+        .in_cavity(1)
+        .moving(DVec3::X)
+        .spinning(DVec3::Z);
+    let bed = Filling::new(1)
+        .with(3, prototype)
+        .fill(&Slot::paper())
+        .unwrap();
+    for particle in bed {
+        assert_eq!(particle, prototype.at(particle.position));
+    }
+}
+
+#[test]
+fn a_particle_that_just_fits_stands_in_the_middle_of_a_round_cavity() {
+    let room = 1.001;
+    for cavity in &cavities(2.0 * room, 2.0 * room, 2.0 * room) {
+        let filling = Filling::new(1).with(1, ball(1.0));
+        assert_apart(cavity.as_ref(), &filling.fill(cavity.as_ref()).unwrap());
+        let two = Filling::new(1).with(2, ball(1.0)).fill(cavity.as_ref());
+        assert!(two.is_err());
+    }
+}
+
+#[test]
+fn ten_thousand_particles_of_many_radii_fit_into_a_drum() {
+    let drum = Cylinder::new(0.05, 0.2).unwrap();
+    let filling = (0..10_000_u32).fold(Filling::new(9), |filling, number| {
+        filling.with(1, ball(1e-3 * (1.0 + f64::from(number % 100) / 100.0)))
+    });
+    assert_apart(&drum, &filling.fill(&drum).unwrap());
+}
+
+#[test]
+fn what_cannot_be_filled_is_refused_with_its_reason() {
+    #[derive(Debug)]
+    struct Endless;
+    impl Cavity for Endless {
+        fn walls(&self) -> u32 {
+            0
+        }
+        fn wall(&self, _number: u32, point: DVec3) -> WallPoint {
+            WallPoint {
+                normal: DVec3::Y,
+                distance: point.y,
+            }
+        }
+        fn bounds(&self) -> [DVec3; 2] {
+            [DVec3::NEG_INFINITY, DVec3::INFINITY]
+        }
+    }
+    let one = Filling::new(1).with(1, ball(3e-3));
+    let value = |result: Result<Vec<Particle>, FillingError>| -> ValueError {
+        match result.unwrap_err() {
+            FillingError::Value(error) => error,
+            other => panic!("{other}"),
+        }
+    };
+    assert_eq!(
+        value(one.fill(&Endless)).quantity,
+        "bound of the cavity (m)"
+    );
+    let flat = one.clone().down(DVec3::Z).fill(&Slot::paper());
+    assert_eq!(value(flat).quantity, "length of the direction down");
+    let mut shrunk = ball(1.0);
+    shrunk.radius = f64::NAN;
+    let nan = Filling::new(1).with(1, shrunk).fill(&Slot::paper());
+    assert_eq!(value(nan).quantity, "particle radius (m)");
+    let dust = Filling::new(1).with(1, ball(1e-12)).fill(&Slot::paper());
+    assert_eq!(value(dust).quantity, "particle radius (m)");
+    assert!(matches!(
+        Filling::new(1)
+            .with(usize::MAX, ball(3e-3))
+            .fill(&Slot::paper()),
+        Err(FillingError::TooMuch {
+            wanted: usize::MAX,
+            ..
+        })
+    ));
+    let large = Filling::new(1).with(1, ball(0.04)).fill(&Slot::paper());
+    assert!(matches!(large, Err(FillingError::NoRoom { placed: 0, .. })));
+}
