@@ -10,7 +10,7 @@ pub(super) const SLIP_MOBILITY: f64 = 3.5;
 
 /// The part of a slip (or of a relative spin) that friction may take away in one step. One half
 /// keeps every integrator stable and leaves room for several contacts on one particle.
-const PART_PER_STEP: f64 = 0.5;
+pub(super) const PART_PER_STEP: f64 = 0.5;
 
 /// Stands for zero in a denominator: too small to matter, too large to make anything overflow.
 const TINY: f64 = 1e-150;
