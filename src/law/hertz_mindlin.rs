@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::friction::{PART_PER_STEP, Rolling, SLIP_MOBILITY, cut};
+use super::friction::{PART_PER_STEP, Rolling, SLIP_MOBILITY, share};
 use super::normal::{Normal, NormalCoefficients, NormalForce, strict_law};
 use super::{ContactLaw, LawError};
 use crate::contact::{Bodies, Contact, ContactForce};
@@ -14,17 +14,21 @@ const GREATEST_TURN: f64 = 1.25;
 /// Hertz's spring with damping along the normal as in [`HertzTsuji`](crate::HertzTsuji), and across
 /// it a spring that remembers: bodies can stick, and rebound sideways.
 ///
-/// f_t = -k_t xi - c_t v_t, cut to mu f_n, with k_t = 8 G* sqrt(r* d) (N/m), the tangential stretch
-/// xi (m) of the contact, its slip v_t (m/s), overlap d (m) and normal force f_n (N, positive when
-/// pushing). xi follows the slip, turns with the contact and is shortened to mu f_n/k_t where the
-/// contact slides. While d grows, k_t xi is kept (the new part of the contact area is unstressed);
-/// while d falls, xi is. Either way the spring's energy k_t xi^2/2 falls, so the law never gives
-/// back more than it took. Mindlin & Deresiewicz 1953, doi 10.1115/1.4010702, without their slip
-/// annulus; Thornton et al. 2013, doi 10.1016/j.powtec.2012.08.012. (Stretching xi alone, as the
+/// ```text
+/// f_t = -k_t xi - c_t v_t, cut to mu f_n
+/// k_t = 8 G* sqrt(r* d)
+/// ```
+/// Tangential force `f_t` (N) on the first body, tangential stretch `xi` (m) of the contact, its
+/// slip `v_t` (m/s) and overlap `d` (m), normal force `f_n` (N, positive when pushing), effective
+/// shear modulus `G*` (Pa) and radius `r*` (m). `xi` follows the slip, turns with the contact and is
+/// shortened to `mu f_n / k_t` where the contact slides. While `d` grows, `k_t xi` is kept (the new
+/// part of the contact area is unstressed); while `d` falls, `xi` is. Either way the spring's energy
+/// `k_t xi^2 / 2` falls, so the law never gives back more than it took. Mindlin & Deresiewicz 1953, doi 10.1115/1.4010702, without their slip
+/// annulus; Thornton et al. 2013, doi 10.1016/j.powtec.2012.08.012. (Stretching `xi` alone, as the
 /// simplest codes do, gains energy on loading: Elata & Berryman 1996,
 /// doi 10.1016/S0167-6636(96)00034-8.)
 ///
-/// c_t is the normal damping c d^(1/2) or c d^(1/4) times a ratio, one by default (Tsuji et al. 1992,
+/// `c_t` is the normal damping, `c d^(1/2)` or `c d^(1/4)`, times a ratio, one by default (Tsuji et al. 1992,
 /// doi 10.1016/0032-5910(92)88030-L), and never takes away more than half of the slip in one step.
 ///
 /// # Time step
@@ -109,13 +113,14 @@ impl HertzMindlin {
 
         let stiffness = coefficients.shear * normal.root;
         let limit = coefficients.friction * normal.force.max(0.0);
-        let spring = cut(stretch * stiffness, limit);
+        let stretch = stretch * share(stretch * stiffness, limit);
         let resistance = self.damping_ratio * normal.resistance;
         let part = resistance * coefficients.mobility * dt;
         let damping = slip * (resistance / (part / PART_PER_STEP).max(1.0));
+        let whole = stretch * stiffness + damping;
         Tangential {
-            stretch: spring / stiffness,
-            force: -cut(spring + damping, limit),
+            stretch,
+            force: whole * -share(whole, limit),
         }
     }
 }
@@ -200,8 +205,7 @@ mod tests {
     use approx::{assert_abs_diff_eq, assert_relative_eq};
     use glam::dvec3;
 
-    /// Tangential speed after over before an impact at `degrees` from the normal, and the speed of
-    /// approach: Kharaz, Gorham & Salman 2001, doi 10.1016/S0032-5910(01)00283-2, aluminium oxide on
+    /// Tangential speed after over before an impact at `degrees` from the normal: Kharaz, Gorham & Salman 2001, doi 10.1016/S0032-5910(01)00283-2, aluminium oxide on
     /// glass at 3.9 m/s.
     fn kharaz(degrees: f64, steps: f64) -> f64 {
         let interaction = Interaction::new(0.98, 0.092).unwrap();
