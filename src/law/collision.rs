@@ -6,7 +6,7 @@ use super::ContactLaw;
 use crate::contact::{Bodies, Body, Contact};
 use crate::damper::StepError;
 use crate::integrator::{Columns, Integrator, Motions, Stage, System};
-use crate::material::Materials;
+use crate::material::{Interaction, Material, Materials};
 
 pub(super) struct Collision<'l, L: ContactLaw> {
     law: &'l L,
@@ -29,6 +29,28 @@ pub(super) fn paper_bodies() -> [Bodies; 2] {
         Bodies::new(sphere, Body::wall(Materials::FIRST)),
         Bodies::new(sphere, sphere),
     ]
+}
+
+/// The paper's acrylic with another restitution and friction.
+pub(super) fn acrylic(restitution: f64, friction: f64) -> Material {
+    Material {
+        interaction: Interaction::new(restitution, friction).unwrap(),
+        ..Material::acrylic()
+    }
+}
+
+/// Impacts at 1 m/s from 0 to 89 degrees with spin of either sign, at a wall and of a pair.
+pub(super) fn oblique<L: ContactLaw>(law: &L) -> impl Iterator<Item = Collision<'_, L>> {
+    let angles = (0..90).step_by(5).chain([89]).map(f64::from);
+    angles.flat_map(move |degrees| {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        let velocity = dvec3(sine, -cosine, 0.0);
+        [-600.0, -100.0, 0.0, 40.0, 600.0]
+            .into_iter()
+            .flat_map(move |spin| {
+                paper_bodies().map(|bodies| Collision::new(law, bodies, velocity, spin * DVec3::Z))
+            })
+    })
 }
 
 impl<'l, L: ContactLaw> Collision<'l, L> {
@@ -111,8 +133,7 @@ impl<'l, L: ContactLaw> Collision<'l, L> {
     /// The same with `steps` to an elastic contact at the speed of approach.
     pub(super) fn run_in(&mut self, integrator: &mut impl Integrator, steps: f64) -> f64 {
         let slow = self.contact(0.0).approach_speed();
-        let materials = Materials::from(crate::Material::acrylic());
-        let impact = super::HertzTsuji::new(materials).elastic_impact(&self.bodies, slow);
+        let impact = super::HertzTsuji::new(Material::acrylic()).elastic_impact(&self.bodies, slow);
         self.run(integrator, impact.unwrap().duration() / steps)
     }
 }

@@ -10,20 +10,21 @@ pub(super) const SLIP_MOBILITY: f64 = 3.5;
 
 /// The part of a slip (or of a relative spin) that friction may take away in one step. One half
 /// keeps every integrator stable and leaves room for several contacts on one particle.
-const PART_PER_STEP: f64 = 0.5;
+pub(super) const PART_PER_STEP: f64 = 0.5;
 
 /// Stands for zero in a denominator: too small to matter, too large to make anything overflow.
 const TINY: f64 = 1e-150;
 
-/// Sliding friction without memory: a force mu f_n against the slip v_t,
-/// -mu f_n v_t/max(|v_t|, v_r), the paper's Eq. (5) with a slip speed v_r below which it fades.
+/// Sliding friction without memory, `f_t = -mu f_n v_t / max(|v_t|, v_r)`: the paper's Eq. (5) with
+/// a slip speed `v_r` below which it fades.
 ///
-/// mu is the pair's friction coefficient, f_n the normal force where it pushes. At zero slip the
-/// force is zero in every form. It always opposes the slip, so it takes energy out of the motion.
+/// `f_t` is the tangential force on the first body (N), `v_t` its slip (m/s), `f_n` the normal force
+/// (N) where it pushes, `mu` the pair's friction coefficient. At zero slip the force is zero in every
+/// form. It opposes the slip always, so it only takes energy out of the motion.
 ///
-/// [`stopping`](Self::stopping) is the default. The printed form, v_r = 0, overshoots: with a time
-/// step dt it reverses a slip that it should have stopped, up to 3.5 mu f_n dt/m*, which at a coarse
-/// step makes a rough wall shake what rests or rolls on it.
+/// [`stopping`](Self::stopping) is the default. The printed form, `v_r = 0`, overshoots: with a time
+/// step `dt` it reverses any slip under `3.5 mu f_n dt / m*` that it should have stopped, and at a
+/// coarse step a rough wall shakes what rests or rolls on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
     slip_speed: f64,
@@ -40,7 +41,8 @@ impl Friction {
     /// The printed form with a force that never takes away more than half of the slip in one time
     /// step: what Eq. (5) tends to as the step shrinks, without its chatter.
     ///
-    /// v_r = 2 * 3.5 mu f_n t/m* with the time t since the step began.
+    /// `v_r = 2 * 3.5 mu f_n t / m*`, with the time `t` since the step began and the effective mass
+    /// `m*`: solid spheres slip by `3.5 / m*` per unit impulse.
     #[must_use]
     pub const fn stopping() -> Self {
         Self {
@@ -49,7 +51,7 @@ impl Friction {
         }
     }
 
-    /// Eq. (5) as printed: mu f_n at any slip, v_r = 0.
+    /// Eq. (5) as printed, of the same size at any slip: `v_r = 0`.
     #[must_use]
     pub const fn as_printed() -> Self {
         Self {
@@ -58,7 +60,7 @@ impl Friction {
         }
     }
 
-    /// Proportional to slip below v_r = `slip_speed` (m/s), or below the v_r of
+    /// Proportional to slip below `slip_speed` (m/s), or below the `v_r` of
     /// [`stopping`](Self::stopping) where that is larger.
     ///
     /// What should stick creeps at up to `slip_speed`: choose it well below the speeds of interest.
@@ -102,12 +104,12 @@ pub(super) struct Grip {
     pub(super) rolling: Rolling,
 }
 
-/// Rolling resistance of constant couple: -mu_r r* f_n w/max(|w|, w_r), with the relative spin w of
-/// the bodies (rad/s). Below w_r it fades, so that it takes away half of w in a time step at the
-/// most. Ai et al. 2011, doi 10.1016/j.powtec.2010.09.030, model A.
+/// Rolling resistance of constant couple, `-mu_r r* f_n w / max(|w|, w_r)` with the relative spin `w`
+/// of the bodies (rad/s). Below `w_r` it fades, so that it takes away half of `w` in a time step at
+/// the most. Ai et al. 2011, doi 10.1016/j.powtec.2010.09.030, model A.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Rolling {
-    /// mu_r r* in m.
+    /// `mu_r r*` in m.
     arm: f64,
     /// Twice the relative spin per unit angular impulse, in 1/(kg m^2).
     stop: f64,
@@ -135,10 +137,10 @@ impl Rolling {
     }
 }
 
-/// `force` cut down to the length `limit` (not negative).
+/// The factor that cuts `force` down to the length `limit` (not negative).
 #[inline]
-pub(super) fn cut(force: DVec3, limit: f64) -> DVec3 {
-    force * (limit / force.length().max(limit).max(TINY))
+pub(super) fn share(force: DVec3, limit: f64) -> f64 {
+    limit / force.length().max(limit).max(TINY)
 }
 
 #[cfg(test)]
@@ -230,9 +232,9 @@ mod tests {
 
     #[test]
     fn cutting_shortens_and_never_lengthens() {
-        assert_eq!(cut(3.0 * DVec3::X, 2.0), 2.0 * DVec3::X);
-        assert_eq!(cut(3.0 * DVec3::X, 4.0), 3.0 * DVec3::X);
-        assert_eq!(cut(3.0 * DVec3::X, 0.0), DVec3::ZERO);
-        assert_eq!(cut(DVec3::ZERO, 0.0), DVec3::ZERO);
+        assert_relative_eq!(share(4.0 * DVec3::X, 2.0), 0.5);
+        assert_relative_eq!(share(3.0 * DVec3::X, 4.0), 1.0);
+        assert_relative_eq!(share(3.0 * DVec3::X, 0.0), 0.0);
+        assert_relative_eq!(share(DVec3::ZERO, 0.0), 0.0);
     }
 }

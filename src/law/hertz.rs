@@ -1,7 +1,7 @@
 use crate::error::{Bound, ValueError};
 
 /// Duration of an elastic Hertz impact over its greatest overlap by its speed:
-/// 2 sqrt(pi) Gamma(7/5)/Gamma(9/10), from 2 int_0^1 dx/sqrt(1 - x^(5/2)).
+/// 2 sqrt(pi) Gamma(7/5)/Gamma(9/10), twice the integral of 1/sqrt(1 - x^(5/2)) from 0 to 1.
 const DURATION: f64 = 2.943_275_184_324_706;
 
 /// A head-on elastic impact of two spheres, or of a sphere and a wall, after Hertz: the force is

@@ -153,14 +153,6 @@ impl NormalForce {
         Ok((coefficients, longest))
     }
 
-    /// The greatest damping rate of an impact at the reference speed, in 1/s.
-    pub(super) fn damping_rate(&self, bodies: &Bodies) -> Result<f64, LawError> {
-        let damping = self.damping_coefficient(bodies)?;
-        Ok(self
-            .damping
-            .greatest_rate(damping, &self.reference(bodies)?))
-    }
-
     #[inline]
     pub(super) fn at(&self, coefficients: &NormalCoefficients, contact: &Contact) -> Normal {
         let root = contact.overlap.sqrt();

@@ -158,26 +158,3 @@ mod tests {
         }
     }
 }
-#[cfg(test)]
-mod tmp {
-    #[test]
-    fn tmp_time() {
-        use super::*;
-        for b in [0.0, 0.26, 1.0, 3.0, 10.0, 30.0, 60.0, 100.0] {
-            let t = std::time::Instant::now();
-            let e = (
-                restitution(b, Ending::NeverPulling),
-                restitution(b, Ending::PullingAllowed),
-            );
-            eprintln!("{b} {e:?} {:?}", t.elapsed());
-        }
-        for e in [0.75, 0.1, 1e-3] {
-            let t = std::time::Instant::now();
-            let n = (
-                number(e, Ending::NeverPulling),
-                number(e, Ending::PullingAllowed),
-            );
-            eprintln!("{e} {n:?} {:?}", t.elapsed());
-        }
-    }
-}
