@@ -23,13 +23,14 @@ const GREATEST_TURN: f64 = 1.25;
 /// shear modulus `G*` (Pa) and radius `r*` (m). `xi` follows the slip, turns with the contact and is
 /// shortened to `mu f_n / k_t` where the contact slides. While `d` grows, `k_t xi` is kept (the new
 /// part of the contact area is unstressed); while `d` falls, `xi` is. Either way the spring's energy
-/// `k_t xi^2 / 2` falls, so the law never gives back more than it took. Mindlin & Deresiewicz 1953, doi 10.1115/1.4010702, without their slip
-/// annulus; Thornton et al. 2013, doi 10.1016/j.powtec.2012.08.012. (Stretching `xi` alone, as the
-/// simplest codes do, gains energy on loading: Elata & Berryman 1996,
-/// doi 10.1016/S0167-6636(96)00034-8.)
+/// `k_t xi^2 / 2` falls, so the law never gives back more than it took. Mindlin & Deresiewicz 1953,
+/// doi 10.1115/1.4010702, without their slip annulus; Thornton et al. 2013,
+/// doi 10.1016/j.powtec.2012.08.012. (Stretching `xi` alone, as the simplest codes do, gains energy
+/// on loading: Elata & Berryman 1996, doi 10.1016/S0167-6636(96)00034-8.)
 ///
-/// `c_t` is the normal damping, `c d^(1/2)` or `c d^(1/4)`, times a ratio, one by default (Tsuji et al. 1992,
-/// doi 10.1016/0032-5910(92)88030-L), and never takes away more than half of the slip in one step.
+/// `c_t` is the normal damping, `c d^(1/2)` or `c d^(1/4)`, times a ratio, one by default (Tsuji et
+/// al. 1992, doi 10.1016/0032-5910(92)88030-L), and never takes away more than half of the slip in
+/// one step.
 ///
 /// # Time step
 /// As for [`HertzTsuji`](crate::HertzTsuji), and short enough for the tangential oscillation, which

@@ -28,9 +28,9 @@ use crate::material::Materials;
 ///
 /// # Time step
 /// At most a quarter of the contact duration at the reference speed (the paper takes a sixth), and
-/// at most the reciprocal of the greatest damping rate, `c d^(1/2) / m*`: beyond, an explicit integrator
-/// amplifies what damping should take away. The second bound is the shorter one for restitutions
-/// under about a third.
+/// at most the reciprocal of the greatest damping rate, `c d^(1/2) / m*`: beyond, an explicit
+/// integrator amplifies what damping should take away. The second bound is the shorter one for
+/// restitutions under about a third.
 ///
 /// ```
 /// use particle_damper::{Bodies, Body, HertzTsuji, Material, Materials};
