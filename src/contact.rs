@@ -117,14 +117,14 @@ impl Contact {
 
     /// Rate of overlap d' in m/s: positive while the bodies approach.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn approach_speed(&self) -> f64 {
         -self.velocity.dot(self.normal)
     }
 
     /// Tangential part of the relative surface velocity, in m/s.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn slip(&self) -> DVec3 {
         self.velocity + self.approach_speed() * self.normal
     }
@@ -146,7 +146,7 @@ pub struct ContactForce {
 impl ContactForce {
     /// A force without a couple.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub const fn new(normal: f64, tangential: DVec3) -> Self {
         Self {
             normal,

@@ -4,13 +4,16 @@
 //! which forces are summed: the contacts within a block, those of its particles with later blocks,
 //! its walls, and at last what earlier blocks send over.
 
+// Small functions of the innermost loop: the compiler must see the loop whole.
+#![allow(clippy::inline_always)]
+
 use std::ops::Range;
 
 use glam::DVec3;
 
 use super::Partner;
 use super::candidates::{Candidates, Remembered, Touch};
-use super::scene::{PairContact, Scene, WallLoad};
+use super::scene::{Grain, PairContact, Scene, WallLoad, wall_contact};
 use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce};
 use crate::law::{ContactLaw, LawError};
@@ -128,12 +131,11 @@ impl<L: ContactLaw> Block<L> {
                 trusted &= (*position - origin - *reference).length_squared() <= limit;
             }
         }
-        let touching = &mut self.touching;
-        let pair = |first, second| scene.is_reached(first, second as usize);
-        self.touching_pairs = list_touching(&self.pairs, touching, 0, pair);
-        self.touching_border = list_touching(&self.border, touching, self.touching_pairs, pair);
-        let wall = |slot, wall| scene.wall(slot, wall).1.overlap > -scene.reach;
-        self.touching_walls = list_touching(&self.walls, touching, self.touching_border, wall);
+        let found = list_pairs(&self.pairs, scene, &mut self.touching, 0);
+        self.touching_pairs = found;
+        let found = list_pairs(&self.border, scene, &mut self.touching, found);
+        self.touching_border = found;
+        self.touching_walls = list_walls(&self.walls, scene, &mut self.touching, found);
         trusted
     }
 
@@ -172,19 +174,20 @@ impl<L: ContactLaw> Block<L> {
         observer: &mut O,
     ) {
         let base = self.slots.start;
-        for touch in &self.touching[..self.touching_pairs] {
-            let (pair, answer) = answer_pair::<C, L, END>(scene, &mut self.pairs, *touch);
-            self.largest_overlap = self.largest_overlap.max(pair.contact.overlap);
-            let (push, first, second) = pair.resolve(&answer);
+        let touching = &self.touching[..self.touching_pairs];
+        let torque = &mut torque[..force.len()];
+        let deliver = |touch: &Touch, push: DVec3, turns: [DVec3; 2]| {
             let (i, j) = (touch.first as usize - base, touch.second as usize - base);
-            force[i] += push;
-            torque[i] += first;
-            force[j] -= push;
-            torque[j] += second;
-            if END && observer.wants_contacts() {
-                report_pair(scene, *touch, &pair.contact, &answer, observer);
+            if i < force.len() && j < force.len() {
+                force[i] += push;
+                torque[i] += turns[0];
+                force[j] -= push;
+                torque[j] += turns[1];
             }
-        }
+        };
+        let pairs = &mut self.pairs;
+        let deepest = answer_pairs::<C, L, O, END>(scene, pairs, touching, observer, deliver);
+        self.largest_overlap = self.largest_overlap.max(deepest);
     }
 
     fn evaluate_border<C: Cavity, O: Observer, const END: bool>(
@@ -195,22 +198,21 @@ impl<L: ContactLaw> Block<L> {
         observer: &mut O,
     ) {
         let base = self.slots.start;
-        for touch in &self.touching[self.touching_pairs..self.touching_border] {
-            let (pair, answer) = answer_pair::<C, L, END>(scene, &mut self.border, *touch);
-            self.largest_overlap = self.largest_overlap.max(pair.contact.overlap);
-            let (push, first, second) = pair.resolve(&answer);
+        let touching = &self.touching[self.touching_pairs..self.touching_border];
+        let parcels = &mut self.parcels;
+        let deliver = |touch: &Touch, push: DVec3, turns: [DVec3; 2]| {
             let i = touch.first as usize - base;
             force[i] += push;
-            torque[i] += first;
-            self.parcels.push(Parcel {
+            torque[i] += turns[0];
+            parcels.push(Parcel {
                 slot: touch.second,
                 force: -push,
-                torque: second,
+                torque: turns[1],
             });
-            if END && observer.wants_contacts() {
-                report_pair(scene, *touch, &pair.contact, &answer, observer);
-            }
-        }
+        };
+        let border = &mut self.border;
+        let deepest = answer_pairs::<C, L, O, END>(scene, border, touching, observer, deliver);
+        self.largest_overlap = self.largest_overlap.max(deepest);
     }
 
     fn evaluate_walls<C: Cavity, O: Observer, const END: bool>(
@@ -223,7 +225,10 @@ impl<L: ContactLaw> Block<L> {
         let base = self.slots.start;
         for touch in &self.touching[self.touching_border..self.touching_walls] {
             let (slot, wall) = (touch.first as usize, touch.second);
-            let (distance, contact) = scene.wall(slot, wall);
+            let grain = scene.grain(slot);
+            let point = scene.wall_point(wall, grain.position);
+            let container = scene.room_of_wall(wall).motion.velocity;
+            let contact = wall_contact(&grain, &point, container, scene.elapsed);
             let kind = scene.coefficients.wall(scene.species[slot]);
             let answer = answer::<L, END>(
                 scene.stamp,
@@ -241,7 +246,7 @@ impl<L: ContactLaw> Block<L> {
             let room = scene.room_of_wall(wall);
             let place = scene.position[slot] - room.motion.position + arm;
             self.loads[wall as usize].react(push, answer.couple, place);
-            if distance < 0.0 {
+            if point.distance < 0.0 {
                 self.escaped = Some(Place {
                     slot,
                     partner: Partner::Wall(wall - room.first_wall),
@@ -265,7 +270,7 @@ impl<L: ContactLaw> Block<L> {
         let walls = walls.iter().map(|touch| {
             let (slot, wall) = (touch.first as usize, touch.second);
             let partner = Partner::Wall(wall - scene.room_of_wall(wall).first_wall);
-            let overlap = scene.wall(slot, wall).1.overlap;
+            let overlap = scene.wall_overlap(slot, wall);
             (overlap, Place { slot, partner })
         });
         let deepest = pairs.chain(walls).max_by(|a, b| a.0.total_cmp(&b.0));
@@ -296,31 +301,56 @@ impl<L: ContactLaw> Block<L> {
     }
 }
 
-/// Lists the candidates that touch, from place `found` on; returns where the list ends.
-#[inline]
-fn list_touching<L: ContactLaw>(
+/// Lists the pairs within the law's reach, from place `found` on; returns where the list ends.
+///
+/// Entries are written before it is known whether they count: no branch to mispredict.
+fn list_pairs<C: Cavity, L: ContactLaw>(
     candidates: &Candidates<L>,
+    scene: &Scene<'_, C, L>,
     touching: &mut [Touch],
     mut found: usize,
-    touches: impl Fn(usize, u32) -> bool,
 ) -> usize {
+    let position = scene.position;
+    let radius = &scene.radius[..position.len()];
     for (first, place, partners) in candidates.rows() {
+        let centre = position[first as usize];
+        let reach = radius[first as usize] + scene.reach;
         for (place, second) in (place..).zip(partners) {
-            let second = *second;
-            // Written before it is known whether it counts: no branch to mispredict.
+            let (second, other) = (*second, *second as usize);
+            let reach = reach + radius[other];
             touching[found] = Touch {
                 first,
                 second,
                 place,
             };
-            found += usize::from(touches(first as usize, second));
+            found += usize::from(centre.distance_squared(position[other]) < reach * reach);
+        }
+    }
+    found
+}
+
+/// Lists the walls within the law's reach, from place `found` on; returns where the list ends.
+fn list_walls<C: Cavity, L: ContactLaw>(
+    candidates: &Candidates<L>,
+    scene: &Scene<'_, C, L>,
+    touching: &mut [Touch],
+    mut found: usize,
+) -> usize {
+    for (first, place, walls) in candidates.rows() {
+        for (place, wall) in (place..).zip(walls) {
+            touching[found] = Touch {
+                first,
+                second: *wall,
+                place,
+            };
+            found += usize::from(scene.wall_overlap(first as usize, *wall) > -scene.reach);
         }
     }
     found
 }
 
 /// The law's answer to a contact; at the end of a step the contact's memory advances.
-#[inline]
+#[inline(always)]
 fn answer<L: ContactLaw, const END: bool>(
     stamp: u32,
     law: &L,
@@ -338,25 +368,51 @@ fn answer<L: ContactLaw, const END: bool>(
     answer
 }
 
-/// The contact of a touching pair, and the law's answer.
-#[inline]
-fn answer_pair<C: Cavity, L: ContactLaw, const END: bool>(
+/// Has the law answer the contacts of touching pairs, and delivers force on the first body and torques
+/// on both. Returns the largest overlap.
+#[inline(always)]
+fn answer_pairs<C: Cavity, L: ContactLaw, O: Observer, const END: bool>(
     scene: &Scene<'_, C, L>,
     list: &mut Candidates<L>,
-    touch: Touch,
-) -> (PairContact, ContactForce) {
-    let (i, j) = (touch.first as usize, touch.second as usize);
-    let pair = scene.pair(i, j);
-    let kinds = (scene.species[i], scene.species[j]);
-    let kind = scene
-        .coefficients
-        .pair(kinds.0, kinds.1, list.prepared(touch.place));
-    let (stamp, law) = (scene.stamp, scene.law);
-    let answer = answer::<L, END>(stamp, law, list, touch.place, &kind, &pair.contact);
-    (pair, answer)
+    touching: &[Touch],
+    observer: &mut O,
+    mut deliver: impl FnMut(&Touch, DVec3, [DVec3; 2]),
+) -> f64 {
+    // Columns of one length, so that one comparison stands for all their bounds.
+    let count = scene.position.len();
+    let (position, velocity) = (&scene.position[..count], &scene.velocity[..count]);
+    let (spin, radius) = (&scene.spin[..count], &scene.radius[..count]);
+    let species = &scene.species[..count];
+    let watched = END && observer.wants_contacts();
+    let mut deepest = 0.0_f64;
+    for touch in touching {
+        let (i, j) = (touch.first as usize, touch.second as usize);
+        if i >= count || j >= count {
+            continue;
+        }
+        let grain = |slot: usize| Grain {
+            position: position[slot],
+            velocity: velocity[slot],
+            spin: spin[slot],
+            radius: radius[slot],
+        };
+        let pair = PairContact::new(&grain(i), &grain(j), scene.elapsed);
+        let own = list.prepared(touch.place);
+        let kind = scene.coefficients.pair(species[i], species[j], own);
+        let (stamp, law) = (scene.stamp, scene.law);
+        let answer = answer::<L, END>(stamp, law, list, touch.place, &kind, &pair.contact);
+        deepest = deepest.max(pair.contact.overlap);
+        let (push, first, second) = pair.resolve(&answer);
+        deliver(touch, push, [first, second]);
+        if watched {
+            report_pair(scene, *touch, &pair.contact, &answer, observer);
+        }
+    }
+    deepest
 }
 
 /// Tells `observer` of a pair.
+#[cold]
 fn report_pair<C: Cavity, L: ContactLaw>(
     scene: &Scene<'_, C, L>,
     touch: Touch,
@@ -375,6 +431,7 @@ fn report_pair<C: Cavity, L: ContactLaw>(
 }
 
 /// Tells `observer` of a contact with a wall.
+#[cold]
 fn report_wall<C: Cavity, L: ContactLaw>(
     scene: &Scene<'_, C, L>,
     touch: Touch,

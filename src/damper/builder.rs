@@ -182,6 +182,7 @@ where
             world: World {
                 law: self.law,
                 coefficients,
+                room_of_wall: room_of_wall(&rooms),
                 rooms,
                 reach,
                 stamp: 0,
@@ -319,6 +320,14 @@ where
     }
 }
 
+/// Number of the room of each wall.
+fn room_of_wall<C: Cavity>(rooms: &[Room<C>]) -> Vec<u32> {
+    let rooms = rooms.iter().zip(0..);
+    rooms
+        .flat_map(|(room, number)| (0..room.cavity.walls()).map(move |_| number))
+        .collect()
+}
+
 fn check_particle(particle: &Particle) -> Result<(), crate::ValueError> {
     Bound::Positive.check("radius (m)", particle.radius)?;
     Bound::Positive.check("mass (kg)", particle.mass)?;
@@ -401,7 +410,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         for touch in self.blocks.iter().flat_map(|block| block.touching().1) {
             let (slot, wall) = (touch.first as usize, touch.second);
             let room = scene.room_of_wall(wall);
-            let overlap = scene.wall(slot, wall).1.overlap;
+            let overlap = scene.wall_overlap(slot, wall);
             if overlap > limit {
                 return Err(BuildError::OutsideCavity {
                     particle: self.particles.number[slot] as usize,

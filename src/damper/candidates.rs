@@ -1,5 +1,8 @@
 //! Contacts that might be: rows of candidates, and what those that touch remember.
 
+// Small functions of the innermost loop: the compiler must see the loop whole.
+#![allow(clippy::inline_always)]
+
 use super::coefficients::Coefficients;
 use crate::law::{ContactLaw, LawError};
 
@@ -148,7 +151,7 @@ impl<L: ContactLaw> Candidates<L> {
     }
 
     /// The rows: slot, place of the first candidate, and the partners.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn rows(&self) -> impl Iterator<Item = (u32, u32, &[u32])> {
         self.rows.windows(2).enumerate().map(|(row, ends)| {
             let partners = &self.partners[ends[0] as usize..ends[1] as usize];
@@ -157,14 +160,14 @@ impl<L: ContactLaw> Candidates<L> {
     }
 
     /// The law's own coefficients of a candidate, if it was asked pair by pair.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn prepared(&self, place: u32) -> Option<&L::Coefficients> {
         self.prepared.get(place as usize)
     }
 
     /// What a touching candidate remembers from the end of step `stamp`: the default if it did not
     /// touch then.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn memory(&self, place: u32, stamp: u32) -> L::Memory {
         if Self::REMEMBERS && self.touched[place as usize] == stamp {
             self.memory[place as usize]
@@ -174,7 +177,7 @@ impl<L: ContactLaw> Candidates<L> {
     }
 
     /// Keeps what a candidate remembers at the end of step `stamp`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn keep(&mut self, place: u32, stamp: u32, memory: L::Memory) {
         if Self::REMEMBERS {
             self.memory[place as usize] = memory;

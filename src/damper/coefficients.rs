@@ -1,5 +1,8 @@
 //! What the law prepared for every two bodies that can meet.
 
+// Small functions of the innermost loop: the compiler must see the loop whole.
+#![allow(clippy::inline_always)]
+
 use crate::contact::{Bodies, Body};
 use crate::law::{ContactLaw, LawError};
 use crate::material::MaterialId;
@@ -76,7 +79,7 @@ impl<K: Copy> Coefficients<K> {
     }
 
     /// The coefficients of two kinds; `prepared` are those of the pair, if it has its own.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn pair(&self, first: u32, second: u32, prepared: Option<&K>) -> K {
         match (&self.pairs, prepared) {
             (_, Some(own)) => *own,
@@ -87,7 +90,7 @@ impl<K: Copy> Coefficients<K> {
     }
 
     /// The coefficients of a kind at a wall.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn wall(&self, kind: u32) -> &K {
         &self.walls[kind as usize]
     }

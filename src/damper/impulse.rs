@@ -6,7 +6,7 @@ use super::Partner;
 use super::block::Place;
 use super::engine::Engine;
 use super::error::StepError;
-use super::scene::WallLoad;
+use super::scene::{PairContact, WallLoad, wall_contact};
 use super::smallest_radius;
 use crate::cavity::Cavity;
 use crate::detector::Detector;
@@ -105,11 +105,12 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 };
                 let touch = block.touching().0[index];
                 let (i, j) = (touch.first as usize, touch.second as usize);
-                let mut pair = if sequential {
-                    scene.pair_with(i, j, velocity, spin)
-                } else {
-                    scene.pair(i, j)
-                };
+                let mut grains = [scene.grain(i), scene.grain(j)];
+                if sequential {
+                    (grains[0].velocity, grains[0].spin) = (velocity[i], spin[i]);
+                    (grains[1].velocity, grains[1].spin) = (velocity[j], spin[j]);
+                }
+                let mut pair = PairContact::new(&grains[0], &grains[1], time_step);
                 pair.contact.mobility =
                     DMat3::from_diagonal(DVec3::splat(particles.inverse_mass[j]));
                 let list = block.list_of_pair(index);
@@ -161,14 +162,18 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let (slot, wall) = (touch.first as usize, touch.second);
                 let cavity = scene.cavity_of_wall(wall);
                 let room = &self.world.rooms[cavity];
-                let (distance, mut contact) = if sequential {
+                let mut grain = scene.grain(slot);
+                let mut container = room.motion.velocity;
+                if sequential {
+                    (grain.velocity, grain.spin) = (velocity[slot], spin[slot]);
                     let coordinates = &self.mount_state.position[..degrees];
-                    let container = self.mount.motion(self.time, coordinates, rates, cavity);
-                    let (velocity, spin) = (velocity[slot], spin[slot]);
-                    scene.wall_with(slot, wall, velocity, spin, container.velocity)
-                } else {
-                    scene.wall(slot, wall)
-                };
+                    container = self
+                        .mount
+                        .motion(self.time, coordinates, rates, cavity)
+                        .velocity;
+                }
+                let point = scene.wall_point(wall, grain.position);
+                let mut contact = wall_contact(&grain, &point, container, time_step);
                 contact.velocity_ahead = contact.velocity + gravity - self.scratch.gain[cavity];
                 contact.mobility = self.mount.mobility(cavity);
                 let kind = scene.coefficients.wall(particles.species[slot]);
@@ -184,7 +189,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 }
                 block.largest_overlap = block.largest_overlap.max(contact.overlap);
                 let partner = Partner::Wall(wall - room.first_wall);
-                if distance < 0.0 {
+                if point.distance < 0.0 {
                     block.escaped = Some(Place { slot, partner });
                 }
                 let force = contact.normal * answer.normal + answer.tangential;

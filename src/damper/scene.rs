@@ -1,12 +1,15 @@
 //! What contacts are computed from, and how two bodies become a [`Contact`].
 
+// Small functions of the innermost loop: the compiler must see the loop whole.
+#![allow(clippy::inline_always)]
+
 use std::ops::Range;
 
 use glam::{DMat3, DVec3};
 
 use super::coefficients::Coefficients;
 use super::particles::Particles;
-use crate::cavity::Cavity;
+use crate::cavity::{Cavity, WallPoint};
 use crate::contact::{Contact, ContactForce};
 use crate::law::ContactLaw;
 use crate::mount::Motion;
@@ -32,6 +35,8 @@ pub(crate) struct World<C, L: ContactLaw> {
     pub(crate) law: L,
     pub(crate) coefficients: Coefficients<L::Coefficients>,
     pub(crate) rooms: Vec<Room<C>>,
+    /// Number of the room of each wall.
+    pub(crate) room_of_wall: Vec<u32>,
     /// Gap in m up to which contacts are evaluated.
     pub(crate) reach: f64,
     /// Number of the last accepted step; it wraps.
@@ -45,6 +50,7 @@ impl<C, L: ContactLaw> World<C, L> {
             law: &self.law,
             coefficients: &self.coefficients,
             rooms: &self.rooms,
+            room_of_wall: &self.room_of_wall,
             position: &particles.position,
             velocity: &particles.velocity,
             spin: &particles.spin,
@@ -68,6 +74,7 @@ pub(crate) struct Scene<'a, C, L: ContactLaw> {
     pub(crate) law: &'a L,
     pub(crate) coefficients: &'a Coefficients<L::Coefficients>,
     pub(crate) rooms: &'a [Room<C>],
+    pub(crate) room_of_wall: &'a [u32],
     pub(crate) position: &'a [DVec3],
     pub(crate) velocity: &'a [DVec3],
     pub(crate) spin: &'a [DVec3],
@@ -82,15 +89,47 @@ pub(crate) struct Scene<'a, C, L: ContactLaw> {
     pub(crate) stamp: u32,
 }
 
+/// What a contact needs to know of a particle.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Grain {
+    pub(crate) position: DVec3,
+    pub(crate) velocity: DVec3,
+    pub(crate) spin: DVec3,
+    pub(crate) radius: f64,
+}
+
 /// Two particles that touch.
 pub(crate) struct PairContact {
     pub(crate) contact: Contact,
-    pub(crate) radii: [f64; 2],
+    radii: [f64; 2],
 }
 
 impl PairContact {
+    /// The contact of two particles, `elapsed` seconds after its memory was advanced. Coincident
+    /// centres have no normal and feel no force.
+    #[inline(always)]
+    pub(crate) fn new(first: &Grain, second: &Grain, elapsed: f64) -> Self {
+        let apart = first.position - second.position;
+        let distance = apart.length();
+        let normal = apart * (1.0 / distance.max(f64::MIN_POSITIVE));
+        let turning = first.spin * first.radius + second.spin * second.radius;
+        let velocity = first.velocity - second.velocity - turning.cross(normal);
+        Self {
+            contact: Contact {
+                normal,
+                overlap: first.radius + second.radius - distance,
+                velocity,
+                velocity_ahead: velocity,
+                spins: [first.spin, second.spin],
+                elapsed,
+                mobility: DMat3::ZERO,
+            },
+            radii: [first.radius, second.radius],
+        }
+    }
+
     /// Force on the first body, and torques on the first and on the second.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn resolve(&self, answer: &ContactForce) -> (DVec3, DVec3, DVec3) {
         let normal = self.contact.normal;
         let force = normal * answer.normal + answer.tangential;
@@ -101,92 +140,65 @@ impl PairContact {
     }
 }
 
-impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
-    /// Whether two particles are within the law's reach.
-    #[inline]
-    pub(crate) fn is_reached(&self, first: usize, second: usize) -> bool {
-        let reach = self.radius[first] + self.radius[second] + self.reach;
-        self.position[first].distance_squared(self.position[second]) < reach * reach
+/// The contact of a particle with a wall that stands to it as `wall`, in a container that moves with
+/// `container`.
+#[inline(always)]
+pub(crate) fn wall_contact(
+    grain: &Grain,
+    wall: &WallPoint,
+    container: DVec3,
+    elapsed: f64,
+) -> Contact {
+    let turning = grain.spin * grain.radius;
+    let velocity = grain.velocity - container - turning.cross(wall.normal);
+    Contact {
+        normal: wall.normal,
+        overlap: grain.radius - wall.distance,
+        velocity,
+        velocity_ahead: velocity,
+        spins: [grain.spin, DVec3::ZERO],
+        elapsed,
+        mobility: DMat3::ZERO,
     }
+}
 
-    /// The contact of two particles, with `velocity` and `spin` in place of the scene's own.
-    /// Coincident centres have no normal and feel no force.
-    #[inline]
-    pub(crate) fn pair_with(
-        &self,
-        first: usize,
-        second: usize,
-        velocity: &[DVec3],
-        spin: &[DVec3],
-    ) -> PairContact {
-        let apart = self.position[first] - self.position[second];
-        let distance = apart.length();
-        let normal = apart * if distance > 0.0 { 1.0 / distance } else { 0.0 };
-        let radii = [self.radius[first], self.radius[second]];
-        let turning = spin[first] * radii[0] + spin[second] * radii[1];
-        let velocity = velocity[first] - velocity[second] - turning.cross(normal);
-        PairContact {
-            contact: Contact {
-                normal,
-                overlap: radii[0] + radii[1] - distance,
-                velocity,
-                velocity_ahead: velocity,
-                spins: [spin[first], spin[second]],
-                elapsed: self.elapsed,
-                mobility: DMat3::ZERO,
-            },
-            radii,
+impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
+    /// The particle in a slot.
+    #[inline(always)]
+    pub(crate) fn grain(&self, slot: usize) -> Grain {
+        Grain {
+            position: self.position[slot],
+            velocity: self.velocity[slot],
+            spin: self.spin[slot],
+            radius: self.radius[slot],
         }
     }
 
     /// The contact of two particles.
-    #[inline]
     pub(crate) fn pair(&self, first: usize, second: usize) -> PairContact {
-        self.pair_with(first, second, self.velocity, self.spin)
+        PairContact::new(&self.grain(first), &self.grain(second), self.elapsed)
     }
 
-    /// The contact of the particle in `slot` with a wall, if they touch, with `velocity`, `spin` and
-    /// the container's velocity in place of the scene's own; and the distance of the two.
-    #[inline]
-    pub(crate) fn wall_with(
-        &self,
-        slot: usize,
-        wall: u32,
-        velocity: DVec3,
-        spin: DVec3,
-        container: DVec3,
-    ) -> (f64, Contact) {
+    /// How a wall stands to a point of the fixed frame.
+    #[inline(always)]
+    pub(crate) fn wall_point(&self, wall: u32, position: DVec3) -> WallPoint {
         let room = self.room_of_wall(wall);
-        let point = self.position[slot] - room.motion.position;
-        let point = room.cavity.wall(wall - room.first_wall, point);
-        let radius = self.radius[slot];
-        let surface = velocity - container - (spin * radius).cross(point.normal);
-        let contact = Contact {
-            normal: point.normal,
-            overlap: radius - point.distance,
-            velocity: surface,
-            velocity_ahead: surface,
-            spins: [spin, DVec3::ZERO],
-            elapsed: self.elapsed,
-            mobility: DMat3::ZERO,
-        };
-        (point.distance, contact)
+        room.cavity
+            .wall(wall - room.first_wall, position - room.motion.position)
     }
 
-    /// The contact of the particle in `slot` with a wall, and the distance of the two.
-    #[inline]
-    pub(crate) fn wall(&self, slot: usize, wall: u32) -> (f64, Contact) {
-        let container = self.room_of_wall(wall).motion.velocity;
-        self.wall_with(slot, wall, self.velocity[slot], self.spin[slot], container)
+    /// The overlap of the particle in a slot with a wall.
+    pub(crate) fn wall_overlap(&self, slot: usize, wall: u32) -> f64 {
+        self.radius[slot] - self.wall_point(wall, self.position[slot]).distance
     }
 
     /// Number of the cavity that has a wall.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn cavity_of_wall(&self, wall: u32) -> usize {
-        self.rooms.partition_point(|room| room.first_wall <= wall) - 1
+        self.room_of_wall[wall as usize] as usize
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn room_of_wall(&self, wall: u32) -> &Room<C> {
         &self.rooms[self.cavity_of_wall(wall)]
     }

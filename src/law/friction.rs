@@ -86,7 +86,7 @@ impl Friction {
     }
 
     /// The tangential force on the first body under the normal force `pressing` (N, not negative).
-    #[inline]
+    #[inline(always)]
     pub(super) fn force(self, grip: &Grip, contact: &Contact, pressing: f64) -> DVec3 {
         let slip = contact.slip();
         let limit = grip.friction * pressing;
@@ -125,7 +125,7 @@ impl Rolling {
     }
 
     /// The couple on the first body under the normal force `pressing` (N, not negative).
-    #[inline]
+    #[inline(always)]
     pub(super) fn couple(&self, contact: &Contact, pressing: f64) -> DVec3 {
         if self.arm == 0.0 {
             return DVec3::ZERO;
@@ -138,7 +138,7 @@ impl Rolling {
 }
 
 /// The factor that cuts `force` down to the length `limit` (not negative).
-#[inline]
+#[inline(always)]
 pub(super) fn share(force: DVec3, limit: f64) -> f64 {
     limit / force.length().max(limit).max(TINY)
 }

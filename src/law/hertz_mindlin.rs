@@ -94,7 +94,7 @@ impl HertzMindlin {
         Ok(self)
     }
 
-    #[inline]
+    #[inline(always)]
     fn tangential(
         &self,
         coefficients: &Coefficients,
@@ -127,7 +127,7 @@ impl HertzMindlin {
 }
 
 /// `vector` turned into the plane across `normal`, with its length kept.
-#[inline]
+#[inline(always)]
 fn turned(vector: DVec3, normal: DVec3) -> DVec3 {
     let flat = vector - vector.dot(normal) * normal;
     let shrunk = flat.length_squared().max(f64::MIN_POSITIVE);
@@ -159,7 +159,7 @@ impl ContactLaw for HertzMindlin {
         })
     }
 
-    #[inline]
+    #[inline(always)]
     fn force(
         &self,
         coefficients: &Coefficients,
@@ -176,7 +176,7 @@ impl ContactLaw for HertzMindlin {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn advance(
         &self,
         coefficients: &Coefficients,

@@ -92,7 +92,7 @@ impl ContactLaw for HertzTsuji {
         })
     }
 
-    #[inline]
+    #[inline(always)]
     fn force(&self, coefficients: &Coefficients, contact: &Contact, (): &()) -> ContactForce {
         let normal = self.normal.at(&coefficients.normal, contact).force;
         let pressing = normal.max(0.0);

@@ -153,7 +153,7 @@ impl NormalForce {
         Ok((coefficients, longest))
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn at(&self, coefficients: &NormalCoefficients, contact: &Contact) -> Normal {
         let root = contact.overlap.sqrt();
         let shape = match self.damping {
