@@ -395,10 +395,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
     fn check_initial_overlaps(&self, limit: f64) -> Result<(), BuildError> {
         let scene = self.world.scene(&self.particles, 0.0);
-        for touch in self.blocks.iter().flat_map(|block| block.touching().0) {
-            let (first, second) = (touch.first as usize, touch.second as usize);
-            let overlap = scene.pair(first, second).contact.overlap;
-            if overlap > limit {
+        for block in &self.blocks {
+            let mut pairs = block.overlapping_pairs(&scene);
+            if let Some((overlap, first, second)) = pairs.find(|pair| pair.0 > limit) {
                 return Err(BuildError::InitialOverlap {
                     first: self.particles.number[first] as usize,
                     second: self.particles.number[second] as usize,
@@ -406,12 +405,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     limit,
                 });
             }
-        }
-        for touch in self.blocks.iter().flat_map(|block| block.touching().1) {
-            let (slot, wall) = (touch.first as usize, touch.second);
-            let room = scene.room_of_wall(wall);
-            let overlap = scene.wall_overlap(slot, wall);
-            if overlap > limit {
+            let mut walls = block.overlapping_walls(&scene);
+            if let Some((overlap, slot, wall)) = walls.find(|wall| wall.0 > limit) {
+                let room = scene.room_of_wall(wall);
                 return Err(BuildError::OutsideCavity {
                     particle: self.particles.number[slot] as usize,
                     position: self.particles.position[slot] - room.motion.position,

@@ -269,7 +269,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
     /// Fills the blocks' empty lists from the sorted proposals, and with the walls that are near.
     fn list_candidates(&mut self) {
-        let scratch = &mut self.scratch;
+        let (scratch, world) = (&mut self.scratch, &self.world);
+        let radius = &self.particles.radius;
         for block in &mut self.blocks {
             for slot in block.slots.clone() {
                 let row = scratch.rows[slot] as usize..scratch.rows[slot + 1] as usize;
@@ -281,27 +282,26 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     .copied()
                     .filter(|p| last.replace(*p) != Some(*p))
                 {
-                    if (partner as usize) < block.slots.end {
-                        block.pairs.push(partner);
+                    let reach = radius[slot] + radius[partner as usize] + world.reach;
+                    let list = if (partner as usize) < block.slots.end {
+                        &mut block.pairs
                     } else {
-                        block.border.push(partner);
-                    }
+                        &mut block.border
+                    };
+                    list.push(slot as u32, partner, reach * reach);
                 }
-                block.pairs.end_row();
-                block.border.end_row();
             }
-            for room in &self.world.rooms {
+            for room in &world.rooms {
                 let from = room.slots.start.max(block.slots.start);
                 let to = room.slots.end.min(block.slots.end);
                 for slot in from..to {
-                    let reach = self.particles.radius[slot] + room.margin + self.world.reach;
+                    let reach = radius[slot] + world.reach;
                     let point = scratch.reference[slot];
                     for wall in 0..room.cavity.walls() {
-                        if room.cavity.wall(wall, point).distance < reach {
-                            block.walls.push(room.first_wall + wall);
+                        if room.cavity.wall(wall, point).distance < reach + room.margin {
+                            block.walls.push(slot as u32, room.first_wall + wall, reach);
                         }
                     }
-                    block.walls.end_row();
                 }
             }
         }

@@ -3,16 +3,18 @@
 use glam::{DMat3, DVec3};
 
 use super::Partner;
-use super::block::Place;
+use super::block::{Place, report_pair, report_wall};
+use super::candidates::Candidates;
 use super::engine::Engine;
 use super::error::StepError;
-use super::scene::{PairContact, WallLoad, wall_contact};
+use super::scene::{Grain, PairContact, WallLoad, wall_contact};
 use super::smallest_radius;
 use crate::cavity::Cavity;
+use crate::contact::ContactForce;
 use crate::detector::Detector;
 use crate::law::{ContactLaw, Evaluation};
 use crate::mount::Mount;
-use crate::observer::{ContactEvent, Observer};
+use crate::observer::Observer;
 
 /// How often the contacts are gone through at the most.
 const ROUNDS: usize = 4;
@@ -36,6 +38,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
         self.prepare_impulses(time_step);
         self.strike_in_rounds(time_step, observer);
+        self.advance_memories(time_step);
         self.hold(time_step)?;
         self.world.stamp = self.world.stamp.wrapping_add(1);
         self.accelerate_mount(self.time);
@@ -55,7 +58,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             }
         }
         for block in &mut self.blocks {
-            block.contacts = block.touching().0.len() + block.touching().1.len();
+            block.contacts = block.contacts_in_reach();
         }
     }
 
@@ -93,53 +96,47 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let mut largest = 0.0_f64;
         let sequential = self.world.law.evaluation() == Evaluation::Sequential;
         let particles = &self.particles;
-        let scene = self.world.scene(&self.particles, time_step);
+        let scene = self.world.scene(particles, time_step);
         let (velocity, spin) = (&mut self.scratch.velocity, &mut self.scratch.spin);
+        let ascending = round.is_multiple_of(2);
         for block in &mut self.blocks {
-            let count = block.touching().0.len();
-            for turn in 0..count {
-                let index = if round.is_multiple_of(2) {
-                    turn
-                } else {
-                    count - 1 - turn
-                };
-                let touch = block.touching().0[index];
-                let (i, j) = (touch.first as usize, touch.second as usize);
-                let mut grains = [scene.grain(i), scene.grain(j)];
-                if sequential {
-                    (grains[0].velocity, grains[0].spin) = (velocity[i], spin[i]);
-                    (grains[1].velocity, grains[1].spin) = (velocity[j], spin[j]);
-                }
-                let mut pair = PairContact::new(&grains[0], &grains[1], time_step);
-                pair.contact.mobility =
-                    DMat3::from_diagonal(DVec3::splat(particles.inverse_mass[j]));
-                let list = block.list_of_pair(index);
-                let kinds = (particles.species[i], particles.species[j]);
-                let kind = scene
-                    .coefficients
-                    .pair(kinds.0, kinds.1, list.prepared(touch.place));
-                let memory = list.memory(touch.place, scene.stamp);
-                let answer = scene.law.force(&kind, &pair.contact, &memory);
-                let memory = scene.law.advance(&kind, &pair.contact, &memory);
-                list.keep(touch.place, scene.stamp.wrapping_add(1), memory);
+            let lists = [&block.pairs, &block.border];
+            for list in if ascending {
+                lists
+            } else {
+                [lists[1], lists[0]]
+            } {
+                let count = list.contacts.len();
+                for turn in 0..count {
+                    let touch = list.touch(if ascending { turn } else { count - 1 - turn });
+                    let (i, j) = (touch.first as usize, touch.second as usize);
+                    let mut grains = [scene.grain(i), scene.grain(j)];
+                    if sequential {
+                        (grains[0].velocity, grains[0].spin) = (velocity[i], spin[i]);
+                        (grains[1].velocity, grains[1].spin) = (velocity[j], spin[j]);
+                    }
+                    let mut pair = PairContact::new(&grains[0], &grains[1], &touch, time_step);
+                    let inverse_mass = DVec3::splat(particles.inverse_mass[j]);
+                    pair.contact.mobility = DMat3::from_diagonal(inverse_mass);
+                    let own = list.prepared(touch.place);
+                    let (first, second) = (particles.species[i], particles.species[j]);
+                    let kind = scene.coefficients.pair(first, second, own);
+                    let memory = list.memory(touch.place, scene.stamp);
+                    let answer = scene.law.force(&kind, &pair.contact, &memory);
 
-                if answer.normal > 0.0 {
+                    block.largest_overlap = block.largest_overlap.max(pair.contact.overlap);
+                    if answer == ContactForce::default() {
+                        continue;
+                    }
                     largest = largest.max(pair.contact.approach_speed());
-                }
-                block.largest_overlap = block.largest_overlap.max(pair.contact.overlap);
-                let (force, first, second) = pair.resolve(&answer);
-                velocity[i] += force * (time_step * particles.inverse_mass[i]);
-                velocity[j] -= force * (time_step * particles.inverse_mass[j]);
-                spin[i] += first * (time_step * particles.inverse_inertia[i]);
-                spin[j] += second * (time_step * particles.inverse_inertia[j]);
-                if answer.normal > 0.0 && observer.wants_contacts() {
-                    observer.contact(&ContactEvent {
-                        particle: particles.number[i] as usize,
-                        partner: Partner::Particle(particles.number[j] as usize),
-                        cavity: self.world.rooms.partition_point(|room| room.slots.end <= i),
-                        contact: pair.contact,
-                        force: answer,
-                    });
+                    let (force, first, second) = pair.resolve(&answer);
+                    velocity[i] += force * (time_step * particles.inverse_mass[i]);
+                    velocity[j] -= force * (time_step * particles.inverse_mass[j]);
+                    spin[i] += first * (time_step * particles.inverse_inertia[i]);
+                    spin[j] += second * (time_step * particles.inverse_inertia[j]);
+                    if observer.wants_contacts() {
+                        report_pair(&scene, touch, &pair.contact, &answer, observer);
+                    }
                 }
             }
         }
@@ -157,8 +154,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let rates = &mut self.scratch.rates;
         let gravity = self.gravity * time_step;
         for block in &mut self.blocks {
-            for index in 0..block.touching().1.len() {
-                let touch = block.touching().1[index];
+            for number in 0..block.walls.contacts.len() {
+                let touch = block.walls.touch(number);
                 let (slot, wall) = (touch.first as usize, touch.second);
                 let cavity = scene.cavity_of_wall(wall);
                 let room = &self.world.rooms[cavity];
@@ -179,19 +176,16 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let kind = scene.coefficients.wall(particles.species[slot]);
                 let memory = block.walls.memory(touch.place, scene.stamp);
                 let answer = scene.law.force(kind, &contact, &memory);
-                let memory = scene.law.advance(kind, &contact, &memory);
-                block
-                    .walls
-                    .keep(touch.place, scene.stamp.wrapping_add(1), memory);
 
-                if answer.normal > 0.0 {
-                    largest = largest.max(contact.approach_speed());
-                }
                 block.largest_overlap = block.largest_overlap.max(contact.overlap);
                 let partner = Partner::Wall(wall - room.first_wall);
                 if point.distance < 0.0 {
                     block.escaped = Some(Place { slot, partner });
                 }
+                if answer == ContactForce::default() {
+                    continue;
+                }
+                largest = largest.max(contact.approach_speed());
                 let force = contact.normal * answer.normal + answer.tangential;
                 let arm = contact.normal * -particles.radius[slot];
                 let torque = arm.cross(answer.tangential) + answer.couple;
@@ -200,18 +194,57 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 self.mount.strike(cavity, -force * time_step, rates);
                 let place = particles.position[slot] - room.motion.position + arm;
                 self.wall_loads[wall as usize].react(force, answer.couple, place);
-                if answer.normal > 0.0 && observer.wants_contacts() {
-                    observer.contact(&ContactEvent {
-                        particle: particles.number[slot] as usize,
-                        partner,
-                        cavity,
-                        contact,
-                        force: answer,
-                    });
+                if observer.wants_contacts() {
+                    report_wall(&scene, touch, &contact, &answer, observer);
                 }
             }
         }
         largest
+    }
+
+    /// Advances the memory of all contacts, with the velocities after the impulses.
+    fn advance_memories(&mut self, time_step: f64) {
+        if !Candidates::<L>::REMEMBERS {
+            return;
+        }
+        let particles = &self.particles;
+        let scene = self.world.scene(particles, time_step);
+        let (velocity, spin) = (&self.scratch.velocity, &self.scratch.spin);
+        let struck = |slot: usize| Grain {
+            velocity: velocity[slot],
+            spin: spin[slot],
+            ..scene.grain(slot)
+        };
+        let next = scene.stamp.wrapping_add(1);
+        for block in &mut self.blocks {
+            for list in [&mut block.pairs, &mut block.border] {
+                for number in 0..list.contacts.len() {
+                    let touch = list.touch(number);
+                    let (i, j) = (touch.first as usize, touch.second as usize);
+                    let pair = PairContact::new(&struck(i), &struck(j), &touch, time_step);
+                    let own = list.prepared(touch.place);
+                    let kinds = (particles.species[i], particles.species[j]);
+                    let kind = scene.coefficients.pair(kinds.0, kinds.1, own);
+                    let memory = list.memory(touch.place, scene.stamp);
+                    let memory = scene.law.advance(&kind, &pair.contact, &memory);
+                    list.keep(touch.place, next, memory);
+                }
+            }
+            let walls = &mut block.walls;
+            for number in 0..walls.contacts.len() {
+                let touch = walls.touch(number);
+                let grain = struck(touch.first as usize);
+                let point = scene.wall_point(touch.second, grain.position);
+                let container = scene.room_of_wall(touch.second).motion.velocity;
+                let contact = wall_contact(&grain, &point, container, time_step);
+                let kind = scene
+                    .coefficients
+                    .wall(particles.species[touch.first as usize]);
+                let memory = walls.memory(touch.place, scene.stamp);
+                let memory = scene.law.advance(kind, &contact, &memory);
+                walls.keep(touch.place, next, memory);
+            }
+        }
     }
 
     /// Turns the velocities after the impulses into accelerations that lead to them.
