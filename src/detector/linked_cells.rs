@@ -42,6 +42,9 @@ pub struct LinkedCells {
     numbers: Vec<u32>,
 }
 
+/// Partners tested at a time.
+const BATCH: usize = 16;
+
 #[derive(Debug, Clone, Copy, Default)]
 struct Sphere {
     centre: DVec3,
@@ -115,10 +118,17 @@ impl LinkedCells {
     fn meet(&self, place: usize, others: Range<usize>, margin: f64, pairs: &mut Pairs) {
         let Sphere { centre, radius } = self.spheres[place];
         let number = self.numbers[place] as usize;
-        let numbers = &self.numbers[others.clone()];
-        for (other, &partner) in self.spheres[others].iter().zip(numbers) {
-            let reach = radius + other.radius + margin;
-            if centre.distance_squared(other.centre) < reach * reach {
+        let numbers = self.numbers[others.clone()].chunks(BATCH);
+        for (others, numbers) in self.spheres[others].chunks(BATCH).zip(numbers) {
+            // Whether a partner is near is anyone's guess; noting it without a branch is faster.
+            let mut near = [0; BATCH];
+            let mut count = 0;
+            for (other, &partner) in others.iter().zip(numbers) {
+                let reach = radius + other.radius + margin;
+                near[count % BATCH] = partner;
+                count += usize::from(centre.distance_squared(other.centre) < reach * reach);
+            }
+            for &partner in &near[..count] {
                 pairs.push(number, partner as usize);
             }
         }
