@@ -282,6 +282,15 @@ fn grids_that_cannot_be_are_refused() {
 }
 
 #[test]
+fn unprepared_detectors_are_slow_but_exact() {
+    let positions: Vec<_> = (0..20).map(|x| DVec3::X * f64::from(x)).collect();
+    let radii = [0.51; 20];
+    let bed = Bed::new(&positions, &radii, [DVec3::ZERO, DVec3::ONE]);
+    assert_eq!(proposals(&mut CellGrid::paper(), &bed), touching(&bed));
+    assert_eq!(proposals(&mut LinkedCells::new(), &bed), touching(&bed));
+}
+
+#[test]
 fn an_open_box_and_a_lost_particle_are_served() {
     let positions = [
         DVec3::splat(f64::NAN),

@@ -16,18 +16,18 @@ const END: u32 = u32::MAX;
 /// The paper's cellular automaton: every centre occupies a cell, and contacts are sought in the
 /// cells around it.
 ///
-/// The cells divide the cavity's bounding box. A centre at x, counted from the lower corner of a
-/// box W wide with N_x cells along x, is in cell (Eq. 9)
+/// The cells divide the cavity's bounding box. Along an axis with n cells over the length w, a
+/// centre at x from the lower corner is in the cell with the index (Eq. 9)
 ///
-/// i_x = max{n in Z : n < N_x x / W + 0.5}
+/// i = max{k in Z : k < n x / w + 0.5}
 ///
-/// and likewise along y and z, so there are N_x + 1 of them, from 0 to N_x. A centre outside the
-/// box is in the nearest cell at its border.
+/// so indices run from 0 to n. A centre outside the box is in the nearest cell at its border.
 ///
 /// The default [`Neighbourhood::Exact`] finds every pair, whatever the resolution. The cost per
 /// detection grows with the particles and the rows of cells in the neighbourhood, not with the
-/// cells of the grid: each row keeps one bit per cell, and empty cells are never looked at.
-/// Cells about as large as the smallest radius are a good choice.
+/// cells of the grid: a bit per cell tells whether it is occupied, and empty cells cost nothing.
+/// Cells about as long as a radius are a good choice. Particles much smaller than the largest
+/// crowd its neighbourhood; [`LinkedCells`](crate::LinkedCells) suits them better.
 ///
 /// T. Komatsuzaki, Y. Iwata, Int. J. Mech. Mater. Des. 13 (2017) 407-417, Sec. 4.1-4.2,
 /// doi 10.1007/s10999-016-9344-3.
@@ -57,8 +57,7 @@ pub struct CellGrid {
 }
 
 impl CellGrid {
-    /// The most cells, counted as (N_x + 1)(N_y + 1)(N_z + 1), that a grid can have. They take
-    /// 4 bytes each.
+    /// The most cells that a grid can have; n + 1 count along an axis divided by n.
     pub const MAX_CELLS: usize = 1 << 24;
 
     /// A grid of `across` cells along x, the width, and `up` cells along y, the height. It does not
