@@ -14,6 +14,7 @@ pub mod mount;
 mod observer;
 mod particle;
 mod random;
+pub mod response;
 
 pub use glam;
 
@@ -37,3 +38,4 @@ pub use material::{Interaction, Material, MaterialId, Materials};
 pub use mount::{Driven, Motion, Mount, Prescribed, SingleDof};
 pub use observer::{ContactEvent, Observer};
 pub use particle::Particle;
+pub use response::ResponseCurve;
