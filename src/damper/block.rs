@@ -92,22 +92,26 @@ impl<L: ContactLaw> Block<L> {
         self.walls.remember(stamp, walls);
     }
 
-    /// Makes finished lists ready for use.
+    /// Makes finished lists ready for use, but for what the law has to [`prepare`](Self::prepare).
     pub(crate) fn finish<C: Cavity>(
         &mut self,
         scene: &Scene<'_, C, L>,
         memory: &[Vec<Remembered<L::Memory>>; 2],
-    ) -> Result<(), LawError> {
+    ) {
         let [pairs, walls] = memory;
         self.pairs.recall(scene.stamp, pairs);
         self.border.recall(scene.stamp, pairs);
         self.walls.recall(scene.stamp, walls);
-        for list in [&mut self.pairs, &mut self.border] {
-            list.prepare(scene.law, scene.coefficients, scene.species)?;
-        }
         let candidates = self.pairs.len() + self.border.len() + self.walls.len();
         self.touching.resize(candidates + 1, Touch::default());
         self.parcels.reserve(self.border.len());
+    }
+
+    /// Asks the law for the pairs of finished lists.
+    pub(crate) fn prepare<C: Cavity>(&mut self, scene: &Scene<'_, C, L>) -> Result<(), LawError> {
+        for list in [&mut self.pairs, &mut self.border] {
+            list.prepare(scene.law, scene.coefficients, scene.species)?;
+        }
         Ok(())
     }
 
