@@ -31,6 +31,9 @@ pub use error::{BuildError, StepError};
 pub use scene::WallLoad;
 pub use snapshot::{RestoreError, Snapshot};
 
+/// The most steps of one call.
+const MOST_STEPS: f64 = 1e9;
+
 use clock::Clock;
 use engine::{Engine, Step};
 
@@ -314,7 +317,8 @@ where
     /// impulse over the interval.
     ///
     /// # Errors
-    /// If the interval is not positive or the motion is not finite; else as [`step`](Self::step).
+    /// If the interval is not positive or longer than a thousand million steps, or the motion is not
+    /// finite; else as [`step`](Self::step).
     pub fn drive(&mut self, end: Motion, interval: f64) -> Result<Reaction, StepError> {
         self.drive_watched(end, interval, &mut ())
     }
@@ -330,6 +334,7 @@ where
         observer: &mut O,
     ) -> Result<Reaction, StepError> {
         Bound::Positive.check("interval (s)", interval)?;
+        Bound::AtMost(MOST_STEPS * self.time_step).check("interval (s)", interval)?;
         if !(end.position.is_finite() && end.velocity.is_finite()) {
             return Err(StepError::Container {
                 cavity: 0,

@@ -1,5 +1,7 @@
 //! Particle impact dampers.
 
+#![forbid(unsafe_code)]
+
 pub mod cavity;
 mod contact;
 mod damper;

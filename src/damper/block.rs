@@ -82,20 +82,24 @@ impl<L: ContactLaw> Block<L> {
         self.walls.remember(stamp, walls);
     }
 
-    /// Makes finished lists ready for use.
+    /// Makes finished lists ready for use, but for what the law has to [`prepare`](Self::prepare).
     pub(crate) fn finish<C: Cavity>(
         &mut self,
         scene: &Scene<'_, C, L>,
         memory: &[Vec<Remembered<L::Memory>>; 2],
-    ) -> Result<(), LawError> {
+    ) {
         let [pairs, walls] = memory;
         self.pairs.finish(scene.stamp, pairs);
         self.border.finish(scene.stamp, pairs);
         self.walls.finish(scene.stamp, walls);
+        self.parcels.reserve(self.border.candidates());
+    }
+
+    /// Asks the law for the pairs of finished lists.
+    pub(crate) fn prepare<C: Cavity>(&mut self, scene: &Scene<'_, C, L>) -> Result<(), LawError> {
         for list in [&mut self.pairs, &mut self.border] {
             list.prepare(scene.law, scene.coefficients, scene.species)?;
         }
-        self.parcels.reserve(self.border.candidates());
         Ok(())
     }
 

@@ -141,6 +141,13 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     velocity,
                 });
             }
+            if room.cavity.is_planar() && (position.z != 0.0 || velocity.z != 0.0) {
+                return Err(StepError::OutOfPlane {
+                    cavity,
+                    position,
+                    velocity,
+                });
+            }
             room.motion = Motion { position, velocity };
         }
         Ok(())
@@ -204,7 +211,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         self.list_candidates();
         let scene = self.world.scene(&self.particles, 0.0);
         for block in &mut self.blocks {
-            block.finish(&scene, &self.scratch.memory)?;
+            block.finish(&scene, &self.scratch.memory);
+        }
+        for block in &mut self.blocks {
+            block.prepare(&scene)?;
         }
         self.scratch.listed = true;
         Ok(())
@@ -353,6 +363,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
         for (torque, inverse) in torque.iter_mut().zip(&self.particles.inverse_inertia) {
             *torque *= *inverse;
+            sum += *torque;
         }
         self.particles.acceleration = force;
         self.particles.angular_acceleration = torque;
@@ -370,11 +381,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     }
 
     pub(crate) fn check_accelerations(&self) -> Result<(), StepError> {
-        let bad = self
-            .particles
-            .acceleration
-            .iter()
-            .position(|a| !a.is_finite());
+        let particles = &self.particles;
+        let turning = particles.angular_acceleration.iter();
+        let mut both = particles.acceleration.iter().zip(turning);
+        let bad = both.position(|(a, turning)| !(a.is_finite() && turning.is_finite()));
         bad.map_or(Ok(()), |slot| Err(self.not_finite(slot)))
     }
 

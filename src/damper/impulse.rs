@@ -258,6 +258,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
         for (n, acceleration) in particles.angular_acceleration.iter_mut().enumerate() {
             *acceleration = (scratch.spin[n] - particles.spin[n]) * rate;
+            sum += *acceleration;
         }
         if sum.is_finite() {
             Ok(())

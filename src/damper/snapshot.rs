@@ -94,18 +94,33 @@ where
     /// If the snapshot is of a damper that is set up otherwise; the damper is then as before.
     pub fn restore(&mut self, snapshot: &Snapshot<L::Memory>) -> Result<(), RestoreError> {
         let engine = &mut self.engine;
+        let (count, cavities) = (engine.particles.len(), engine.world.rooms.len());
+        let coordinates = engine.mount_state.position.len();
         for (quantity, expected, found) in [
-            ("particles", engine.particles.len(), snapshot.number.len()),
+            ("particles", count, snapshot.number.len()),
+            ("kinds of particles", count, snapshot.species.len()),
+            ("positions", count, snapshot.position.len()),
+            ("velocities", count, snapshot.velocity.len()),
+            ("spins", count, snapshot.spin.len()),
+            ("accelerations", count, snapshot.acceleration.len()),
+            (
+                "angular accelerations",
+                count,
+                snapshot.angular_acceleration.len(),
+            ),
             (
                 "mount coordinates",
-                engine.mount_state.position.len(),
+                coordinates,
                 snapshot.mount.position.len(),
             ),
+            ("mount rates", coordinates, snapshot.mount.velocity.len()),
             (
-                "cavities",
-                engine.world.rooms.len(),
-                snapshot.containers.len(),
+                "mount accelerations",
+                coordinates,
+                snapshot.mount.acceleration.len(),
             ),
+            ("cavities", cavities, snapshot.containers.len()),
+            ("loads", cavities, snapshot.loads.len()),
             ("walls", engine.wall_loads.len(), snapshot.wall_loads.len()),
         ] {
             if expected != found {
@@ -116,17 +131,19 @@ where
                 });
             }
         }
-        let particles = &mut engine.particles;
-        let same_species =
-            snapshot
-                .number
-                .iter()
-                .zip(&snapshot.species)
-                .all(|(number, species)| {
-                    let slot = particles.slot.get(*number as usize);
-                    slot.is_some_and(|slot| particles.species[*slot as usize] == *species)
-                });
-        if particles.kinds != snapshot.kinds || !same_species {
+        let (particles, world) = (&mut engine.particles, &engine.world);
+        let mut places = snapshot.number.iter().zip(&snapshot.species).enumerate();
+        let same = places.all(|(place, (number, species))| {
+            let slot = particles
+                .slot
+                .get(*number as usize)
+                .map(|slot| *slot as usize);
+            slot.is_some_and(|slot| {
+                particles.species[slot] == *species
+                    && world.cavity_of(slot) == world.cavity_of(place)
+            })
+        });
+        if particles.kinds != snapshot.kinds || !same {
             return Err(RestoreError::OtherParticles);
         }
         particles.rearrange(&snapshot.number);

@@ -94,7 +94,8 @@ impl NormalForce {
     }
 
     fn material(&self, id: MaterialId) -> Result<&Material, LawError> {
-        self.materials.get(id).ok_or(LawError::UnknownMaterial(id))
+        let material = self.materials.get(id);
+        Ok(material.ok_or(LawError::UnknownMaterial(id))?.checked()?)
     }
 
     pub(super) fn materials(&self, bodies: &Bodies) -> Result<[&Material; 2], LawError> {
@@ -108,7 +109,7 @@ impl NormalForce {
         self.materials(bodies)?;
         let (a, b) = (bodies.first.material, bodies.second.material);
         let interaction = self.materials.interaction(a, b);
-        interaction.ok_or(LawError::UnknownMaterial(b))
+        Ok(interaction.ok_or(LawError::UnknownMaterial(b))?.checked()?)
     }
 
     /// The elastic impact of two bodies at `speed` (m/s).
