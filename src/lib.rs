@@ -18,7 +18,7 @@ mod random;
 pub use glam;
 
 pub use cavity::{Cavity, Cuboid, Slot};
-pub use contact::{Bodies, Body, Contact, ContactForce};
+pub use contact::{Bodies, Body, Contact, ContactForce, Stored};
 pub use damper::{
     BuildError, Builder, Damper, Partner, Reaction, RestoreError, Snapshot, StepError, WallLoad,
 };
@@ -34,6 +34,9 @@ pub use law::{
     LawError, RestitutionImpulse, TangentialSpring,
 };
 pub use material::{Interaction, Material, MaterialId, Materials};
-pub use mount::{Driven, Motion, Mount, Prescribed, SingleDof};
-pub use observer::{ContactEvent, Observer};
+pub use mount::{Driven, Motion, Mount, MountEnergy, Prescribed, SingleDof};
+pub use observer::{
+    BedRegime, ContactEvent, Energies, EnergyLedger, Extremes, Frame, Losses, Observer, WallRecord,
+    WallRecorder,
+};
 pub use particle::Particle;
