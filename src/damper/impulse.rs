@@ -9,6 +9,7 @@ use super::error::StepError;
 use super::scene::WallLoad;
 use super::smallest_radius;
 use crate::cavity::Cavity;
+use crate::contact::{Contact, ContactForce, Stored};
 use crate::detector::Detector;
 use crate::law::{ContactLaw, Evaluation};
 use crate::mount::Mount;
@@ -126,18 +127,21 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     largest = largest.max(pair.contact.approach_speed());
                 }
                 block.largest_overlap = block.largest_overlap.max(pair.contact.overlap);
+                let watched = answer.normal > 0.0 && observer.wants_contacts();
+                let before = watched.then(|| scene.pair_with(i, j, velocity, spin).contact);
                 let (force, first, second) = pair.resolve(&answer);
                 velocity[i] += force * (time_step * particles.inverse_mass[i]);
                 velocity[j] -= force * (time_step * particles.inverse_mass[j]);
                 spin[i] += first * (time_step * particles.inverse_inertia[i]);
                 spin[j] += second * (time_step * particles.inverse_inertia[j]);
-                if answer.normal > 0.0 && observer.wants_contacts() {
+                if let Some(before) = before {
+                    let after = scene.pair_with(i, j, velocity, spin).contact;
+                    let event = struck(pair.contact, answer, &before, &after);
                     observer.contact(&ContactEvent {
                         particle: particles.number[i] as usize,
                         partner: Partner::Particle(particles.number[j] as usize),
                         cavity: self.world.rooms.partition_point(|room| room.slots.end <= i),
-                        contact: pair.contact,
-                        force: answer,
+                        ..event
                     });
                 }
             }
@@ -161,11 +165,14 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let (slot, wall) = (touch.first as usize, touch.second);
                 let cavity = scene.cavity_of_wall(wall);
                 let room = &self.world.rooms[cavity];
-                let (distance, mut contact) = if sequential {
+                let working = |velocity: &[DVec3], spin: &[DVec3], rates: &[f64]| {
                     let coordinates = &self.mount_state.position[..degrees];
                     let container = self.mount.motion(self.time, coordinates, rates, cavity);
                     let (velocity, spin) = (velocity[slot], spin[slot]);
                     scene.wall_with(slot, wall, velocity, spin, container.velocity)
+                };
+                let (distance, mut contact) = if sequential {
+                    working(velocity, spin, rates)
                 } else {
                     scene.wall(slot, wall)
                 };
@@ -187,6 +194,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 if distance < 0.0 {
                     block.escaped = Some(Place { slot, partner });
                 }
+                let watched = answer.normal > 0.0 && observer.wants_contacts();
+                let before = watched.then(|| working(velocity, spin, rates).1);
                 let force = contact.normal * answer.normal + answer.tangential;
                 let arm = contact.normal * -particles.radius[slot];
                 let torque = arm.cross(answer.tangential) + answer.couple;
@@ -195,13 +204,14 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 self.mount.strike(cavity, -force * time_step, rates);
                 let place = particles.position[slot] - room.motion.position + arm;
                 self.wall_loads[wall as usize].react(force, answer.couple, place);
-                if answer.normal > 0.0 && observer.wants_contacts() {
+                if let Some(before) = before {
+                    let after = working(velocity, spin, rates).1;
+                    let event = struck(contact, answer, &before, &after);
                     observer.contact(&ContactEvent {
                         particle: particles.number[slot] as usize,
                         partner,
                         cavity,
-                        contact,
-                        force: answer,
+                        ..event
                     });
                 }
             }
@@ -226,5 +236,24 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         } else {
             self.check_accelerations()
         }
+    }
+}
+
+/// What an observer is told of an impulse that has changed the working velocities from those of
+/// `before` to those of `after`; who was struck is left open.
+fn struck(contact: Contact, force: ContactForce, before: &Contact, after: &Contact) -> ContactEvent {
+    // Half of what the step adds by itself goes before the impulse: then the energies of impulses,
+    // gravity and the container's motion add up to the change over the step.
+    let ahead = contact.velocity_ahead - contact.velocity;
+    ContactEvent {
+        particle: 0,
+        partner: Partner::Wall(0),
+        cavity: 0,
+        contact,
+        force,
+        stored: Stored::default(),
+        working_velocity: 0.5 * (before.velocity + after.velocity + ahead),
+        working_spin: 0.5
+            * (before.spins[0] - before.spins[1] + (after.spins[0] - after.spins[1])),
     }
 }
