@@ -11,7 +11,7 @@ use crate::error::Bound;
 use crate::integrator::{Integrator, VelocityVerlet};
 use crate::law::{ContactLaw, Evaluation};
 use crate::mount::{Driven, Motion, Mount};
-use crate::observer::Observer;
+use crate::observer::{Frame, Observer, View};
 use crate::particle::Particle;
 
 mod block;
@@ -25,6 +25,7 @@ mod impulse;
 mod particles;
 mod scene;
 mod snapshot;
+mod view;
 
 pub use builder::Builder;
 pub use error::{BuildError, StepError};
@@ -130,6 +131,7 @@ where
         }
         self.clock.advance(dt);
         self.engine.time = self.clock.time();
+        observer.step(&Frame::new(self.engine.time, dt, &self.engine));
         Ok(())
     }
 
@@ -161,9 +163,7 @@ where
     /// frame.
     #[must_use]
     pub fn particle(&self, number: usize) -> Option<Particle> {
-        let slot = *self.engine.particles.slot.get(number)? as usize;
-        let cavity = self.engine.world.cavity_of(slot) as u32;
-        Some(self.engine.particles.particle(slot, cavity))
+        self.engine.particle(number)
     }
 
     /// The particles in the order of their numbers.
@@ -196,28 +196,19 @@ where
     /// The mount's generalised coordinates.
     #[must_use]
     pub fn coordinates(&self) -> &[f64] {
-        &self.engine.mount_state.position[..self.engine.mount.degrees()]
+        self.engine.coordinates()
     }
 
     /// The rates of the mount's generalised coordinates.
     #[must_use]
     pub fn rates(&self) -> &[f64] {
-        &self.engine.mount_state.velocity[..self.engine.mount.degrees()]
+        self.engine.rates()
     }
 
     /// Position and velocity of the container of a cavity.
     #[must_use]
     pub fn container(&self, cavity: usize) -> Option<Motion> {
-        let degrees = self.engine.mount.degrees();
-        let state = &self.engine.mount_state;
-        (cavity < self.engine.world.rooms.len()).then(|| {
-            self.engine.mount.motion(
-                self.time(),
-                &state.position[..degrees],
-                &state.velocity[..degrees],
-                cavity,
-            )
-        })
+        self.engine.container(cavity)
     }
 
     /// What the particles of a cavity did to its container over the last step.
@@ -235,9 +226,7 @@ where
     /// over the step.
     #[must_use]
     pub fn wall_load(&self, cavity: usize, wall: u32) -> Option<WallLoad> {
-        let room = self.engine.world.rooms.get(cavity)?;
-        (wall < room.cavity.walls())
-            .then(|| self.engine.wall_loads[(room.first_wall + wall) as usize])
+        self.engine.wall_load(cavity, wall)
     }
 
     /// How many contacts there were when they were evaluated last, walls included.
@@ -249,8 +238,7 @@ where
     /// The largest overlap in m when contacts were evaluated last.
     #[must_use]
     pub fn largest_overlap(&self) -> f64 {
-        let overlaps = self.engine.blocks.iter().map(|block| block.largest_overlap);
-        overlaps.fold(0.0, f64::max)
+        self.engine.largest_overlap()
     }
 
     /// How many particles have their centre outside their cavity.

@@ -21,7 +21,7 @@ pub mod response;
 pub use glam;
 
 pub use cavity::{Cavity, Cuboid, Slot};
-pub use contact::{Bodies, Body, Contact, ContactForce};
+pub use contact::{Bodies, Body, Contact, ContactForce, Stored};
 pub use damper::{
     BuildError, Builder, Damper, Partner, Reaction, RestoreError, Snapshot, StepError, WallLoad,
 };
@@ -37,7 +37,10 @@ pub use law::{
     LawError, RestitutionImpulse, TangentialSpring,
 };
 pub use material::{Interaction, Material, MaterialId, Materials};
-pub use mount::{Driven, Motion, Mount, Prescribed, SingleDof};
-pub use observer::{ContactEvent, Observer};
+pub use mount::{Driven, Motion, Mount, MountEnergy, Prescribed, SingleDof};
+pub use observer::{
+    BedRegime, ContactEvent, Energies, EnergyLedger, Extremes, Frame, Losses, Observer, WallRecord,
+    WallRecorder,
+};
 pub use particle::Particle;
 pub use response::ResponseCurve;

@@ -246,7 +246,7 @@ impl<L: ContactLaw> Block<L> {
                 });
             }
             if END && observer.wants_contacts() {
-                report_wall(scene, touch, &contact, &answer, observer);
+                report_wall(scene, &self.walls, touch, &contact, &answer, observer);
             }
         }
     }
@@ -359,46 +359,60 @@ fn answer_pairs<C: Cavity, L: ContactLaw, O: Observer, const END: bool>(
         let (push, first, second) = pair.resolve(&answer);
         deliver(&touch, push, [first, second]);
         if watched {
-            report_pair(scene, touch, &pair.contact, &answer, observer);
+            report_pair(scene, list, touch, &pair.contact, &answer, observer);
         }
     }
     deepest
 }
 
-/// Tells `observer` of a pair.
+/// Tells `observer` of a pair in `list`.
 #[cold]
-pub(crate) fn report_pair<C: Cavity, L: ContactLaw>(
+fn report_pair<C: Cavity, L: ContactLaw>(
     scene: &Scene<'_, C, L>,
+    list: &Candidates<L>,
     touch: Touch,
     contact: &Contact,
     force: &ContactForce,
     observer: &mut impl Observer,
 ) {
-    let slot = touch.first as usize;
+    let (slot, other) = (touch.first as usize, touch.second as usize);
+    let prepared = list.prepared(touch.place);
+    let (first, second) = (scene.species[slot], scene.species[other]);
+    let kind = scene.coefficients.pair(first, second, prepared);
+    let memory = list.memory(touch.place, scene.stamp.wrapping_add(1));
     observer.contact(&ContactEvent {
         particle: scene.number[slot] as usize,
-        partner: Partner::Particle(scene.number[touch.second as usize] as usize),
+        partner: Partner::Particle(scene.number[other] as usize),
         cavity: scene.rooms.partition_point(|room| room.slots.end <= slot),
         contact: *contact,
         force: *force,
+        stored: scene.law.stored(&kind, contact, &memory),
+        working_velocity: contact.velocity,
+        working_spin: contact.spins[0] - contact.spins[1],
     });
 }
 
-/// Tells `observer` of a contact with a wall.
+/// Tells `observer` of a contact with a wall in `list`.
 #[cold]
-pub(crate) fn report_wall<C: Cavity, L: ContactLaw>(
+fn report_wall<C: Cavity, L: ContactLaw>(
     scene: &Scene<'_, C, L>,
+    list: &Candidates<L>,
     touch: Touch,
     contact: &Contact,
     force: &ContactForce,
     observer: &mut impl Observer,
 ) {
-    let wall = touch.second;
+    let (slot, wall) = (touch.first as usize, touch.second);
+    let kind = scene.coefficients.wall(scene.species[slot]);
+    let memory = list.memory(touch.place, scene.stamp.wrapping_add(1));
     observer.contact(&ContactEvent {
-        particle: scene.number[touch.first as usize] as usize,
+        particle: scene.number[slot] as usize,
         partner: Partner::Wall(wall - scene.room_of_wall(wall).first_wall),
         cavity: scene.cavity_of_wall(wall),
         contact: *contact,
         force: *force,
+        stored: scene.law.stored(kind, contact, &memory),
+        working_velocity: contact.velocity,
+        working_spin: contact.spins[0],
     });
 }

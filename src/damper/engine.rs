@@ -471,11 +471,6 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         Ok(())
     }
 
-    /// Contacts within the cavities and at walls.
-    pub(crate) fn contacts(&self) -> usize {
-        self.blocks.iter().map(|block| block.contacts).sum()
-    }
-
     /// Memories of all contacts, pairs and walls, by slot.
     pub(crate) fn remembered(&self) -> [Vec<Remembered<L::Memory>>; 2] {
         let mut memory = [Vec::new(), Vec::new()];

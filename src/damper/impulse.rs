@@ -3,18 +3,18 @@
 use glam::{DMat3, DVec3};
 
 use super::Partner;
-use super::block::{Place, report_pair, report_wall};
+use super::block::Place;
 use super::candidates::Candidates;
 use super::engine::Engine;
 use super::error::StepError;
-use super::scene::{Grain, PairContact, WallLoad, wall_contact};
+use super::scene::{Grain, PairContact, Scene, WallLoad, wall_contact};
 use super::smallest_radius;
 use crate::cavity::Cavity;
-use crate::contact::ContactForce;
+use crate::contact::{Contact, ContactForce, Stored};
 use crate::detector::Detector;
 use crate::law::{ContactLaw, Evaluation};
 use crate::mount::Mount;
-use crate::observer::Observer;
+use crate::observer::{ContactEvent, Observer};
 
 /// How often the contacts are gone through at the most.
 const ROUNDS: usize = 4;
@@ -100,22 +100,24 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let (velocity, spin) = (&mut self.scratch.velocity, &mut self.scratch.spin);
         let ascending = round.is_multiple_of(2);
         for block in &mut self.blocks {
-            let lists = [&block.pairs, &block.border];
-            for list in if ascending {
-                lists
-            } else {
-                [lists[1], lists[0]]
-            } {
+            let mut lists = [&block.pairs, &block.border];
+            if !ascending {
+                lists.reverse();
+            }
+            for list in lists {
                 let count = list.contacts.len();
                 for turn in 0..count {
                     let touch = list.touch(if ascending { turn } else { count - 1 - turn });
                     let (i, j) = (touch.first as usize, touch.second as usize);
-                    let mut grains = [scene.grain(i), scene.grain(j)];
-                    if sequential {
-                        (grains[0].velocity, grains[0].spin) = (velocity[i], spin[i]);
-                        (grains[1].velocity, grains[1].spin) = (velocity[j], spin[j]);
-                    }
-                    let mut pair = PairContact::new(&grains[0], &grains[1], &touch, time_step);
+                    let working = |velocity: &[DVec3], spin: &[DVec3]| {
+                        let struck = |slot| struck(&scene, slot, velocity, spin);
+                        PairContact::new(&struck(i), &struck(j), &touch, time_step)
+                    };
+                    let mut pair = if sequential {
+                        working(velocity, spin)
+                    } else {
+                        working(scene.velocity, scene.spin)
+                    };
                     let inverse_mass = DVec3::splat(particles.inverse_mass[j]);
                     pair.contact.mobility = DMat3::from_diagonal(inverse_mass);
                     let own = list.prepared(touch.place);
@@ -129,13 +131,21 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                         continue;
                     }
                     largest = largest.max(pair.contact.approach_speed());
+                    let watched = observer.wants_contacts();
+                    let before = watched.then(|| working(velocity, spin).contact);
                     let (force, first, second) = pair.resolve(&answer);
                     velocity[i] += force * (time_step * particles.inverse_mass[i]);
                     velocity[j] -= force * (time_step * particles.inverse_mass[j]);
                     spin[i] += first * (time_step * particles.inverse_inertia[i]);
                     spin[j] += second * (time_step * particles.inverse_inertia[j]);
-                    if observer.wants_contacts() {
-                        report_pair(&scene, touch, &pair.contact, &answer, observer);
+                    if let Some(before) = before {
+                        let after = working(velocity, spin).contact;
+                        observer.contact(&ContactEvent {
+                            particle: particles.number[i] as usize,
+                            partner: Partner::Particle(particles.number[j] as usize),
+                            cavity: self.world.cavity_of(i),
+                            ..impulse(pair.contact, answer, &before, &after)
+                        });
                     }
                 }
             }
@@ -159,18 +169,18 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let (slot, wall) = (touch.first as usize, touch.second);
                 let cavity = scene.cavity_of_wall(wall);
                 let room = &self.world.rooms[cavity];
-                let mut grain = scene.grain(slot);
-                let mut container = room.motion.velocity;
-                if sequential {
-                    (grain.velocity, grain.spin) = (velocity[slot], spin[slot]);
+                let point = scene.wall_point(wall, scene.position[slot]);
+                let working = |velocity: &[DVec3], spin: &[DVec3], rates: &[f64]| {
                     let coordinates = &self.mount_state.position[..degrees];
-                    container = self
-                        .mount
-                        .motion(self.time, coordinates, rates, cavity)
-                        .velocity;
-                }
-                let point = scene.wall_point(wall, grain.position);
-                let mut contact = wall_contact(&grain, &point, container, time_step);
+                    let container = self.mount.motion(self.time, coordinates, rates, cavity);
+                    let grain = struck(&scene, slot, velocity, spin);
+                    wall_contact(&grain, &point, container.velocity, time_step)
+                };
+                let mut contact = if sequential {
+                    working(velocity, spin, rates)
+                } else {
+                    wall_contact(&scene.grain(slot), &point, room.motion.velocity, time_step)
+                };
                 contact.velocity_ahead = contact.velocity + gravity - self.scratch.gain[cavity];
                 contact.mobility = self.mount.mobility(cavity);
                 let kind = scene.coefficients.wall(particles.species[slot]);
@@ -186,6 +196,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     continue;
                 }
                 largest = largest.max(contact.approach_speed());
+                let watched = observer.wants_contacts();
+                let before = watched.then(|| working(velocity, spin, rates));
                 let force = contact.normal * answer.normal + answer.tangential;
                 let arm = contact.normal * -particles.radius[slot];
                 let torque = arm.cross(answer.tangential) + answer.couple;
@@ -194,8 +206,14 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 self.mount.strike(cavity, -force * time_step, rates);
                 let place = particles.position[slot] - room.motion.position + arm;
                 self.wall_loads[wall as usize].react(force, answer.couple, place);
-                if observer.wants_contacts() {
-                    report_wall(&scene, touch, &contact, &answer, observer);
+                if let Some(before) = before {
+                    let after = working(velocity, spin, rates);
+                    observer.contact(&ContactEvent {
+                        particle: particles.number[slot] as usize,
+                        partner,
+                        cavity,
+                        ..impulse(contact, answer, &before, &after)
+                    });
                 }
             }
         }
@@ -210,11 +228,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let particles = &self.particles;
         let scene = self.world.scene(particles, time_step);
         let (velocity, spin) = (&self.scratch.velocity, &self.scratch.spin);
-        let struck = |slot: usize| Grain {
-            velocity: velocity[slot],
-            spin: spin[slot],
-            ..scene.grain(slot)
-        };
+        let struck = |slot: usize| struck(&scene, slot, velocity, spin);
         let next = scene.stamp.wrapping_add(1);
         for block in &mut self.blocks {
             for list in [&mut block.pairs, &mut block.border] {
@@ -265,5 +279,42 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         } else {
             self.check_accelerations()
         }
+    }
+}
+
+/// The particle in a slot with other velocities than the scene's own.
+fn struck<C: Cavity, L: ContactLaw>(
+    scene: &Scene<'_, C, L>,
+    slot: usize,
+    velocity: &[DVec3],
+    spin: &[DVec3],
+) -> Grain {
+    Grain {
+        velocity: velocity[slot],
+        spin: spin[slot],
+        ..scene.grain(slot)
+    }
+}
+
+/// What an observer is told of an impulse that has changed the working velocities from those of
+/// `before` to those of `after`; who was struck is left open.
+fn impulse(
+    contact: Contact,
+    force: ContactForce,
+    before: &Contact,
+    after: &Contact,
+) -> ContactEvent {
+    // Half of what the step adds by itself goes before the impulse: then the energies of impulses,
+    // gravity and the container's motion add up to the change over the step.
+    let ahead = contact.velocity_ahead - contact.velocity;
+    ContactEvent {
+        particle: 0,
+        partner: Partner::Wall(0),
+        cavity: 0,
+        contact,
+        force,
+        stored: Stored::default(),
+        working_velocity: 0.5 * (before.velocity + after.velocity + ahead),
+        working_spin: 0.5 * (before.spins[0] - before.spins[1] + (after.spins[0] - after.spins[1])),
     }
 }

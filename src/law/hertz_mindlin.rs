@@ -3,7 +3,7 @@ use glam::DVec3;
 use super::friction::{PART_PER_STEP, Rolling, SLIP_MOBILITY, share};
 use super::normal::{Normal, NormalCoefficients, NormalForce, strict_law};
 use super::{ContactLaw, LawError};
-use crate::contact::{Bodies, Contact, ContactForce};
+use crate::contact::{Bodies, Contact, ContactForce, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::Materials;
 
@@ -186,6 +186,21 @@ impl ContactLaw for HertzMindlin {
             force,
             root: normal.root,
         }
+    }
+
+    fn stored(
+        &self,
+        coefficients: &Coefficients,
+        contact: &Contact,
+        memory: &TangentialSpring,
+    ) -> Stored {
+        let stiffness = coefficients.shear * memory.root;
+        let stretched = if stiffness > 0.0 {
+            0.5 * memory.load.length_squared() / stiffness
+        } else {
+            0.0
+        };
+        NormalForce::stored(&coefficients.normal, contact, stretched)
     }
 
     fn time_step_limit(&self, coefficients: &Coefficients) -> f64 {

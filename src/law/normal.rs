@@ -3,7 +3,7 @@
 use super::LawError;
 use super::damping::{Damping, Ending};
 use super::hertz::ElasticImpact;
-use crate::contact::{Bodies, Contact};
+use crate::contact::{Bodies, Contact, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::{Interaction, Material, MaterialId, Materials};
 
@@ -172,6 +172,16 @@ impl NormalForce {
                 Ending::PullingAllowed => force,
             },
         }
+    }
+
+    /// Hertz's force and energy, 2/5 k d^(5/2); `tangential` is the energy (J) of the stretch.
+    pub(super) fn stored(
+        coefficients: &NormalCoefficients,
+        contact: &Contact,
+        tangential: f64,
+    ) -> Stored {
+        let force = coefficients.stiffness * contact.overlap * contact.overlap.sqrt();
+        Stored::new(force, 0.4 * force * contact.overlap, tangential)
     }
 }
 

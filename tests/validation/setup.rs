@@ -104,9 +104,7 @@ pub(crate) fn collide<L: ContactLaw, I: Integrator>(
         .unwrap();
 
     let overlap = |now: &[Particle]| match now {
-        [first, second] => {
-            first.radius + second.radius - first.position.distance(second.position)
-        }
+        [first, second] => first.radius + second.radius - first.position.distance(second.position),
         _ => now[0].radius - now[0].position.y,
     };
     let mut watch = Watch::default();
@@ -153,6 +151,9 @@ pub(crate) fn longest_step<L: ContactLaw>(law: L, bodies: &[Particle]) -> f64 {
         .build();
     match refused {
         Err(BuildError::TimeStepTooLong { limit, .. }) => limit,
-        other => panic!("a step of 1e9 s should be refused as too long, not {:?}", other.err()),
+        other => panic!(
+            "a step of 1e9 s should be refused as too long, not {:?}",
+            other.err()
+        ),
     }
 }
