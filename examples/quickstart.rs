@@ -61,7 +61,7 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
         x: 0.0..0.5,
         y: 1.1 * lowest - 0.01..1.1 * highest + 0.01,
         logarithmic: [false; 2],
-        legend: SeriesLabelPosition::UpperRight,
+        legend: SeriesLabelPosition::LowerRight,
     }
     .draw(
         &path,

@@ -9,6 +9,8 @@
 mod chart;
 #[path = "support/output.rs"]
 mod output;
+#[path = "support/progress.rs"]
+mod progress;
 
 use std::error::Error;
 use std::time::Instant;
@@ -113,7 +115,7 @@ fn main() -> Result<(), Failure> {
         "approximate, grid, dt 1e-4 s",
     ];
     let mut curves = [const { Vec::new() }; 3];
-    let bar = output::progress_bar(3 * options.particles.iter().sum::<usize>() as u64);
+    let bar = progress::bar(3 * options.particles.iter().sum::<usize>() as u64);
     for &particles in &options.particles {
         let seconds = [
             options.seconds(strict(), 2e-5, particles, &bar)?,
