@@ -52,17 +52,12 @@ impl Losses {
         self.pair_normal + self.pair_friction + self.wall_normal + self.wall_friction
     }
 
-    fn add(&mut self, partner: Partner, normal: f64, friction: f64) {
-        match partner {
-            Partner::Particle(_) => {
-                self.pair_normal += normal;
-                self.pair_friction += friction;
-            }
-            Partner::Wall(_) => {
-                self.wall_normal += normal;
-                self.wall_friction += friction;
-            }
-        }
+    fn add(&mut self, powers: &[[f64; 2]; 2], time: f64) {
+        let [[pair_normal, pair_friction], [wall_normal, wall_friction]] = powers;
+        self.pair_normal += pair_normal * time;
+        self.pair_friction += pair_friction * time;
+        self.wall_normal += wall_normal * time;
+        self.wall_friction += wall_friction * time;
     }
 }
 
@@ -88,6 +83,14 @@ impl Loss {
             -self.damping * self.normal.dot(velocity),
             -self.tangential.dot(velocity) - self.couple.dot(spin),
         ]
+    }
+}
+
+/// Place of a pair and of a contact with a wall among sums of the two.
+const fn class(partner: Partner) -> usize {
+    match partner {
+        Partner::Particle(_) => 0,
+        Partner::Wall(_) => 1,
     }
 }
 
@@ -139,8 +142,9 @@ impl Pace {
 struct Balance {
     energies: Energies,
     mount: MountEnergy,
-    /// Energy of tangential stretch in pairs and at walls, J.
-    stretched: [f64; 2],
+    /// Powers lost in pairs and at walls, each along the normal and across it, W.
+    losses: [[f64; 2]; 2],
+    stored: [Stored; 2],
 }
 
 /// Accounts for the energy of a damper, from the forces that its steps are made with.
@@ -170,10 +174,10 @@ pub struct EnergyLedger {
     structure: f64,
     losses: Losses,
     stored: [Stored; 2],
-    before: Vec<Loss>,
-    now: Vec<Loss>,
+    contacts: Vec<Loss>,
+    /// At the end of the step in hand, and of the one before.
     pace: Pace,
-    mean: Pace,
+    before: Pace,
     loads: Vec<DVec3>,
 }
 
@@ -221,37 +225,34 @@ impl EnergyLedger {
         self.input - change - self.structure - self.losses.total()
     }
 
-    /// Turns the velocities of the last step into the means over this one.
-    fn average(&mut self, frame: &Frame<'_>) {
-        std::mem::swap(&mut self.pace, &mut self.mean);
-        self.pace.read(frame);
-        for (mean, now) in [
-            (&mut self.mean.velocity, &self.pace.velocity),
-            (&mut self.mean.spin, &self.pace.spin),
-            (&mut self.mean.container, &self.pace.container),
-        ] {
-            for (mean, now) in mean.iter_mut().zip(now) {
-                *mean = 0.5 * (*mean + *now);
-            }
+    /// Powers lost in the contacts of the step.
+    fn powers(&self, frame: &Frame<'_>) -> [[f64; 2]; 2] {
+        let mut sums = [[0.0; 2]; 2];
+        for loss in &self.contacts {
+            let [velocity, spin] = if frame.holds_forces() {
+                [loss.working_velocity, loss.working_spin]
+            } else {
+                self.pace.of(loss)
+            };
+            let [normal, friction] = loss.powers(velocity, spin);
+            let sum = &mut sums[class(loss.partner)];
+            sum[0] += normal;
+            sum[1] += friction;
         }
+        sums
     }
 
-    fn count_contacts(&mut self, frame: &Frame<'_>) {
+    fn count_contacts(&mut self, frame: &Frame<'_>, now: &Balance) {
         let dt = frame.time_step();
         if frame.holds_forces() {
-            for loss in &self.now {
-                let [normal, friction] = loss.powers(loss.working_velocity, loss.working_spin);
-                self.losses.add(loss.partner, dt * normal, dt * friction);
-            }
+            self.losses.add(&now.losses, dt);
         } else {
-            for loss in self.before.iter().chain(&self.now) {
-                let [velocity, spin] = self.mean.of(loss);
-                let [normal, friction] = loss.powers(velocity, spin);
-                let half = 0.5 * dt;
-                self.losses
-                    .add(loss.partner, half * normal, half * friction);
-            }
+            self.losses.add(&self.last.losses, 0.5 * dt);
+            self.losses.add(&now.losses, 0.5 * dt);
         }
+        let gained = |class: usize| now.stored[class].tangential - self.last.stored[class].tangential;
+        self.losses.pair_friction -= gained(0);
+        self.losses.wall_friction -= gained(1);
     }
 
     fn count_input(&mut self, frame: &Frame<'_>, mount: &MountEnergy) {
@@ -259,21 +260,19 @@ impl EnergyLedger {
         let before = &self.last.mount;
         self.input += 0.5 * dt * (before.input + mount.input);
         self.structure += 0.5 * dt * (before.dissipation + mount.dissipation);
-        for (cavity, last) in self.loads.iter_mut().enumerate() {
+        if !frame.coordinates().is_empty() {
+            return;
+        }
+        for (cavity, last) in self.loads.iter().enumerate() {
             let load = frame.load(cavity).unwrap_or_default();
-            if frame.coordinates().is_empty() {
-                let mean = if frame.holds_forces() {
-                    load
-                } else {
-                    0.5 * (load + *last)
-                };
-                self.input -= dt * mean.dot(self.mean.container[cavity]);
-            }
-            *last = load;
+            let held = frame.holds_forces();
+            let load = if held { load } else { 0.5 * (load + *last) };
+            let moved = 0.5 * (self.before.container[cavity] + self.pace.container[cavity]);
+            self.input -= dt * load.dot(moved);
         }
     }
 
-    fn balance(&self, frame: &Frame<'_>) -> Balance {
+    fn balance(&mut self, frame: &Frame<'_>) -> Balance {
         let mount = frame.mount_energy();
         let mut energies = Energies {
             mount: mount.kinetic,
@@ -291,7 +290,8 @@ impl EnergyLedger {
         Balance {
             energies,
             mount,
-            stretched: self.stored.map(|stored| stored.tangential),
+            losses: self.powers(frame),
+            stored: std::mem::take(&mut self.stored),
         }
     }
 }
@@ -302,7 +302,7 @@ impl Observer for EnergyLedger {
     }
 
     fn contact(&mut self, event: &ContactEvent) {
-        self.now.push(Loss {
+        self.contacts.push(Loss {
             particle: event.particle,
             partner: event.partner,
             cavity: event.cavity,
@@ -313,31 +313,26 @@ impl Observer for EnergyLedger {
             working_velocity: event.working_velocity,
             working_spin: event.working_spin,
         });
-        let sum = &mut self.stored[usize::from(matches!(event.partner, Partner::Wall(_)))];
+        let sum = &mut self.stored[class(event.partner)];
         sum.normal += event.stored.normal;
         sum.tangential += event.stored.tangential;
     }
 
     fn step(&mut self, frame: &Frame<'_>) {
+        std::mem::swap(&mut self.pace, &mut self.before);
+        self.pace.read(frame);
         let balance = self.balance(frame);
         if self.open {
-            self.average(frame);
-            self.count_contacts(frame);
+            self.count_contacts(frame, &balance);
             self.count_input(frame, &balance.mount);
-            let gained = |n: usize| balance.stretched[n] - self.last.stretched[n];
-            self.losses.pair_friction -= gained(0);
-            self.losses.wall_friction -= gained(1);
         } else {
             self.open = true;
             self.opening = balance.energies;
-            self.pace.read(frame);
-            self.mean.clone_from(&self.pace);
-            let loads = (0..frame.cavities()).map_while(|cavity| frame.load(cavity));
-            self.loads = loads.collect();
         }
         self.last = balance;
-        self.stored = [Stored::default(); 2];
-        std::mem::swap(&mut self.before, &mut self.now);
-        self.now.clear();
+        self.contacts.clear();
+        let loads = (0..frame.cavities()).map_while(|cavity| frame.load(cavity));
+        self.loads.clear();
+        self.loads.extend(loads);
     }
 }
