@@ -42,12 +42,14 @@ fn run<L: ContactLaw, I: Integrator>(
 fn explore() {
     let acrylic = Material::acrylic;
     let periods: f64 = std::env::var("PERIODS").map_or(4.0, |p| p.parse().unwrap());
-    for dt in [2e-5, 1e-5, 5e-6, 2.5e-6] {
+    let steps: usize = std::env::var("STEPS").map_or(4, |p| p.parse().unwrap());
+    for dt in [2e-5, 1e-5, 5e-6, 2.5e-6].into_iter().take(steps) {
         let show = |name: &str, l: EnergyLedger| {
             println!(
-                "{name} {dt:e}: input {:.5e} residual/input {:.3e} structure {:.4e} {:?}",
+                "{name} {dt:e}: input {:.5e} residual/input {:.3e} drift {:.3e} structure {:.4e} {:?}",
                 l.input(),
                 l.residual() / l.input(),
+                l.integration_loss() / l.input(),
                 l.structure_loss(),
                 l.losses()
             );
