@@ -4,6 +4,7 @@ use super::{ContactEvent, Frame, Observer};
 use crate::contact::Stored;
 use crate::damper::Partner;
 use crate::mount::MountEnergy;
+use crate::particle::Particle;
 
 /// Energies at an instant, in J.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -96,57 +97,48 @@ const fn class(partner: Partner) -> usize {
     }
 }
 
-/// Where velocities were at the end of a step.
+/// How everything moves: at the end of a step, or on the mean over it.
 #[derive(Debug, Clone, Default)]
 struct Pace {
-    radius: Vec<f64>,
-    velocity: Vec<DVec3>,
-    spin: Vec<DVec3>,
-    container: Vec<DVec3>,
+    particles: Vec<Particle>,
+    containers: Vec<DVec3>,
 }
 
 impl Pace {
     fn read(&mut self, frame: &Frame<'_>) {
-        self.radius.clear();
-        self.velocity.clear();
-        self.spin.clear();
-        for particle in frame.particles() {
-            self.radius.push(particle.radius);
-            self.velocity.push(particle.velocity);
-            self.spin.push(particle.spin);
-        }
-        self.container.clear();
+        self.particles.clear();
+        self.particles.extend(frame.particles());
+        self.containers.clear();
         let containers = (0..frame.cavities()).map_while(|cavity| frame.container(cavity));
-        self.container
+        self.containers
             .extend(containers.map(|motion| motion.velocity));
-    }
-
-    /// Velocity of the first body's surface relative to the second's, and relative spin.
-    fn of(&self, touch: &Touch) -> [DVec3; 2] {
-        let (first, spin) = (self.velocity[touch.particle], self.spin[touch.particle]);
-        let turning = spin * self.radius[touch.particle];
-        let (second, turning, spin) = match touch.partner {
-            Partner::Particle(other) => (
-                self.velocity[other],
-                turning + self.spin[other] * self.radius[other],
-                spin - self.spin[other],
-            ),
-            Partner::Wall(_) => (self.container[touch.cavity], turning, spin),
-        };
-        [first - second - turning.cross(touch.normal), spin]
     }
 
     /// Becomes the mean of itself and `other`.
     fn average(&mut self, other: &Self) {
-        for (own, other) in [
-            (&mut self.velocity, &other.velocity),
-            (&mut self.spin, &other.spin),
-            (&mut self.container, &other.container),
-        ] {
-            for (own, other) in own.iter_mut().zip(other) {
-                *own = 0.5 * (*own + *other);
-            }
+        for (own, other) in self.particles.iter_mut().zip(&other.particles) {
+            own.velocity = 0.5 * (own.velocity + other.velocity);
+            own.spin = 0.5 * (own.spin + other.spin);
         }
+        for (own, other) in self.containers.iter_mut().zip(&other.containers) {
+            *own = 0.5 * (*own + *other);
+        }
+    }
+
+    /// Velocity of the first body's surface relative to the second's, and relative spin.
+    fn of(&self, touch: &Touch) -> [DVec3; 2] {
+        let first = &self.particles[touch.particle];
+        let turning = first.spin * first.radius;
+        let (second, turning, spin) = match touch.partner {
+            Partner::Particle(other) => {
+                let other = &self.particles[other];
+                let turning = turning + other.spin * other.radius;
+                (other.velocity, turning, first.spin - other.spin)
+            }
+            Partner::Wall(_) => (self.containers[touch.cavity], turning, first.spin),
+        };
+        let surface = first.velocity - second - turning.cross(touch.normal);
+        [surface, spin]
     }
 }
 
@@ -170,10 +162,12 @@ struct Balance {
 /// where each item is counted by itself, and the residual is what the time step leaves open.
 ///
 /// Work in contacts is force times velocity, each the mean of its values at both ends of the step:
-/// Verlet's method changes kinetic energy by just that. Losses are that work less what the contacts
-/// [store](Stored): along the normal, and across it by slip and rolling. Losses along the normal hold
-/// what a coarse step takes from elastic forces, too ([`integration_loss`](Self::integration_loss)).
-/// Powers of the mount are summed by the trapezoidal rule.
+/// Verlet's method changes kinetic energy by just that. What other integrators do at their stages
+/// besides is known from the change of momentum, and is shared among the normal forces. Losses are
+/// that work less what the contacts [store](Stored): along the normal, and across it by slip and
+/// rolling. So the losses along the normal hold what a coarse step takes from elastic forces, too;
+/// [`integration_loss`](Self::integration_loss) tells it apart. Powers of the mount are summed by the
+/// trapezoidal rule.
 /// Where a mount has no coordinates, the input is the work of moving its containers against the
 /// particles.
 ///
@@ -196,7 +190,6 @@ pub struct EnergyLedger {
     /// At the end of the step, and the mean over it.
     pace: Pace,
     mean: Pace,
-    loads: Vec<DVec3>,
 }
 
 impl EnergyLedger {
@@ -254,7 +247,23 @@ impl EnergyLedger {
         self.input - change - self.structure - self.losses.total()
     }
 
-    fn count_contacts(&mut self, frame: &Frame<'_>, now: &Balance) {
+    /// Works of the contacts on the particles over the step, by the change of their momentum: what
+    /// the containers give, and what is taken from motion relative to them. Whatever the integrator,
+    /// these are the works of the forces that it used.
+    fn exchanged(&self, frame: &Frame<'_>) -> [f64; 2] {
+        let fall = frame.gravity() * frame.time_step();
+        let (mut given, mut taken) = (0.0, 0.0);
+        for (now, mean) in self.pace.particles.iter().zip(&self.mean.particles) {
+            let impulse = now.mass * (2.0 * (now.velocity - mean.velocity) - fall);
+            let container = self.mean.containers[now.cavity as usize];
+            given += impulse.dot(container);
+            taken -= impulse.dot(mean.velocity - container);
+            taken -= now.inertia() * 2.0 * (now.spin - mean.spin).dot(mean.spin);
+        }
+        [given, taken]
+    }
+
+    fn count_contacts(&mut self, frame: &Frame<'_>, now: &Balance, all: f64) {
         let dt = frame.time_step();
         let mut taken = [[0.0; 2]; 2];
         let mut take = |touch: &Touch, [velocity, spin]: [DVec3; 2], time: f64| {
@@ -271,6 +280,10 @@ impl EnergyLedger {
             for touch in self.touches_before.iter().chain(&self.touches) {
                 take(touch, self.mean.of(touch), 0.5 * dt);
             }
+            let seen: f64 = taken.as_flattened().iter().sum();
+            let [pairs, walls] = taken.map(|[normal, _]| normal.abs() + f64::MIN_POSITIVE);
+            taken[0][0] += (all - seen) * (pairs / (pairs + walls));
+            taken[1][0] += (all - seen) * (walls / (pairs + walls));
             self.damping += 0.5 * dt * (self.last.damping + now.damping);
         }
         for (class, taken) in taken.iter_mut().enumerate() {
@@ -281,19 +294,13 @@ impl EnergyLedger {
         self.losses.add(&taken);
     }
 
-    fn count_input(&mut self, frame: &Frame<'_>, mount: &MountEnergy) {
-        let dt = frame.time_step();
+    fn count_input(&mut self, frame: &Frame<'_>, mount: &MountEnergy, given: f64) {
+        let half = 0.5 * frame.time_step();
         let before = &self.last.mount;
-        self.input += 0.5 * dt * (before.input + mount.input);
-        self.structure += 0.5 * dt * (before.dissipation + mount.dissipation);
-        if !frame.coordinates().is_empty() {
-            return;
-        }
-        for (cavity, last) in self.loads.iter().enumerate() {
-            let load = frame.load(cavity).unwrap_or_default();
-            let held = frame.holds_forces();
-            let load = if held { load } else { 0.5 * (load + *last) };
-            self.input -= dt * load.dot(self.mean.container[cavity]);
+        self.input += half * (before.input + mount.input);
+        self.structure += half * (before.dissipation + mount.dissipation);
+        if frame.coordinates().is_empty() {
+            self.input += given;
         }
     }
 
@@ -304,7 +311,7 @@ impl EnergyLedger {
             spring: mount.potential,
             ..Energies::default()
         };
-        for particle in frame.particles() {
+        for particle in &self.pace.particles {
             energies.translation += 0.5 * particle.mass * particle.velocity.length_squared();
             energies.spin += 0.5 * particle.inertia() * particle.spin.length_squared();
             energies.gravity -= particle.mass * frame.gravity().dot(particle.position);
@@ -354,8 +361,9 @@ impl Observer for EnergyLedger {
         self.mean.average(&self.pace);
         let balance = self.balance(frame);
         if self.open {
-            self.count_contacts(frame, &balance);
-            self.count_input(frame, &balance.mount);
+            let [given, taken] = self.exchanged(frame);
+            self.count_contacts(frame, &balance, taken);
+            self.count_input(frame, &balance.mount, given);
         } else {
             self.open = true;
             self.opening = balance.energies;
@@ -364,8 +372,5 @@ impl Observer for EnergyLedger {
         self.held = frame.holds_forces();
         std::mem::swap(&mut self.touches, &mut self.touches_before);
         self.touches.clear();
-        let loads = (0..frame.cavities()).map_while(|cavity| frame.load(cavity));
-        self.loads.clear();
-        self.loads.extend(loads);
     }
 }
