@@ -208,7 +208,14 @@ impl<L: ContactLaw> Block<L> {
                 torque: second,
             });
             if END && observer.wants_contacts() {
-                report_pair(scene, &self.border, *touch, &pair.contact, &answer, observer);
+                report_pair(
+                    scene,
+                    &self.border,
+                    *touch,
+                    &pair.contact,
+                    &answer,
+                    observer,
+                );
             }
         }
     }

@@ -241,7 +241,12 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
 /// What an observer is told of an impulse that has changed the working velocities from those of
 /// `before` to those of `after`; who was struck is left open.
-fn struck(contact: Contact, force: ContactForce, before: &Contact, after: &Contact) -> ContactEvent {
+fn struck(
+    contact: Contact,
+    force: ContactForce,
+    before: &Contact,
+    after: &Contact,
+) -> ContactEvent {
     // Half of what the step adds by itself goes before the impulse: then the energies of impulses,
     // gravity and the container's motion add up to the change over the step.
     let ahead = contact.velocity_ahead - contact.velocity;
@@ -253,7 +258,6 @@ fn struck(contact: Contact, force: ContactForce, before: &Contact, after: &Conta
         force,
         stored: Stored::default(),
         working_velocity: 0.5 * (before.velocity + after.velocity + ahead),
-        working_spin: 0.5
-            * (before.spins[0] - before.spins[1] + (after.spins[0] - after.spins[1])),
+        working_spin: 0.5 * (before.spins[0] - before.spins[1] + (after.spins[0] - after.spins[1])),
     }
 }

@@ -28,7 +28,11 @@ impl BedRegime {
     }
 
     fn mean(&self, sum: f64) -> f64 {
-        if self.time > 0.0 { sum / self.time } else { 0.0 }
+        if self.time > 0.0 {
+            sum / self.time
+        } else {
+            0.0
+        }
     }
 
     /// Mean number of contacts of a particle, walls included.
@@ -100,7 +104,9 @@ impl Observer for BedRegime {
         self.off_walls += dt * f64::from(self.at_walls == 0);
         let (mut mass, mut place, mut momentum, mut energy) = (0.0, DVec3::ZERO, DVec3::ZERO, 0.0);
         for particle in frame.particles() {
-            let origin = frame.container(particle.cavity as usize).unwrap_or_default();
+            let origin = frame
+                .container(particle.cavity as usize)
+                .unwrap_or_default();
             mass += particle.mass;
             place += particle.mass * (particle.position - origin.position);
             momentum += particle.mass * particle.velocity;
