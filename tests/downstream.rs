@@ -495,7 +495,7 @@ fn a_tangential_spring_makes_a_sphere_roll_down_a_slope() {
         .gravity(dvec3(slope.sin(), -slope.cos(), 0.0) * 9.81)
         .particles([Particle::new(radius, 2e-4)
             .unwrap()
-            .at(dvec3(-0.4, radius, 0.0))])
+            .at(dvec3(0.1, radius, 0.05))])
         .time_step(1e-5)
         .build()
         .unwrap();
