@@ -345,11 +345,12 @@ fn survives_its_host<L: ContactLaw + Clone>(law: &L, time_step: f64) {
         velocity: DVec3::ZERO,
     };
 
-    let metre = damper.drive(at(DVec3::Y), time_step);
+    // An impulse law looks at the contacts at the start of a step, so it may tell one later.
+    let metre = (0..2).find_map(|_| damper.drive(at(DVec3::Y), time_step).err());
     assert!(
         matches!(
             metre,
-            Err(StepError::Escaped { .. } | StepError::Overlap { .. })
+            Some(StepError::Escaped { .. } | StepError::Overlap { .. })
         ),
         "{metre:?}"
     );
