@@ -266,6 +266,15 @@ proptest! {
         // Both are fine.
         let _ = case.run();
     }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 300,
+        rng_seed: RngSeed::Fixed(2),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn a_filling_of_any_numbers_is_refused_or_does_not_overlap(
