@@ -1,6 +1,8 @@
 //! The contract of `Detector`, held against every detector by one body: exactly the pairs that
 //! testing each pair gives, each once.
 
+#![allow(clippy::unwrap_used, clippy::float_cmp)]
+
 use particle_damper::glam::DVec3;
 use particle_damper::{
     AllPairs, Bed, CellGrid, Counted, Detector, DetectorError, LinkedCells, Neighbourhood, Pairs,

@@ -1,6 +1,6 @@
 //! Every trait implemented from outside, with what the crate makes public alone, and run together.
 
-#![allow(clippy::unwrap_used, clippy::expect_used)]
+#![allow(clippy::unwrap_used)]
 
 use std::f64::consts::PI;
 

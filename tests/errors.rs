@@ -1,7 +1,12 @@
 //! Whatever cannot be right is refused where it is handed in, by an error that names the quantity, the
 //! value and the bound.
 
-#![allow(clippy::unwrap_used, clippy::expect_used)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::float_cmp,
+    clippy::items_after_statements,
+    clippy::too_many_lines
+)]
 
 use std::error::Error;
 

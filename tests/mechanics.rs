@@ -1,6 +1,6 @@
 //! What other codes got wrong, held against whole dampers.
 
-#![allow(clippy::unwrap_used, clippy::expect_used)]
+#![allow(clippy::unwrap_used)]
 
 use particle_damper::cavity::{Cavity, Cuboid, Slot};
 use particle_damper::glam::{DVec3, dvec3};

@@ -1,7 +1,7 @@
 //! No heap allocation per step once warm: for every law, integrator and detector, lists that are
 //! rebuilt included.
 
-#![allow(unsafe_code, clippy::unwrap_used, clippy::expect_used)]
+#![allow(unsafe_code, clippy::unwrap_used)]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -1,6 +1,6 @@
 //! Whatever numbers are handed in: a typed error or a finite answer, never a panic.
 
-#![allow(clippy::unwrap_used, clippy::expect_used)]
+#![allow(clippy::unwrap_used)]
 
 use particle_damper::cavity::{Cavity, Cuboid, Cylinder, Disc, Slot, Sphere};
 use particle_damper::excitation::Harmonic;
@@ -58,6 +58,7 @@ const SANE: [f64; 32] = [
 ];
 
 #[derive(Debug, Clone)]
+#[allow(clippy::struct_excessive_bools)]
 struct Case {
     numbers: [f64; 32],
     count: usize,
