@@ -133,7 +133,9 @@ fn case() -> impl Strategy<Value = Case> {
             let then: Vec<_> = particles.iter().map(|p| p.1).collect();
             let fixed = |places: &[_]| {
                 let mut centres = positions(places, bounds, radius, planar);
-                centres.iter_mut().for_each(|centre| *centre += origin);
+                for centre in &mut centres {
+                    *centre += origin;
+                }
                 centres
             };
             Case {
