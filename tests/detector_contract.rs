@@ -1,8 +1,6 @@
 //! The contract of `Detector`, held against every detector by one body: exactly the pairs that
 //! testing each pair gives, each once.
 
-#![allow(clippy::unwrap_used, clippy::float_cmp)]
-
 use particle_damper::glam::DVec3;
 use particle_damper::{
     AllPairs, Bed, CellGrid, Counted, Detector, DetectorError, LinkedCells, Neighbourhood, Pairs,
@@ -133,9 +131,7 @@ fn case() -> impl Strategy<Value = Case> {
             let then: Vec<_> = particles.iter().map(|p| p.1).collect();
             let fixed = |places: &[_]| {
                 let mut centres = positions(places, bounds, radius, planar);
-                for centre in &mut centres {
-                    *centre += origin;
-                }
+                centres.iter_mut().for_each(|centre| *centre += origin);
                 centres
             };
             Case {
