@@ -266,11 +266,7 @@ where
     /// Memory in bytes that particles, candidates and contacts have reserved.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
-        let blocks = self
-            .engine
-            .blocks
-            .iter()
-            .map(|block| block.reserved_bytes());
+        let blocks = self.engine.blocks.iter().map(block::Block::reserved_bytes);
         self.engine.particles.reserved_bytes()
             + self.engine.scratch.reserved_bytes()
             + blocks.sum::<usize>()

@@ -394,8 +394,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             if let (true, Some(Place { slot, partner })) = (self.contained, block.escaped) {
                 return Err(self.escaped(slot, partner));
             }
-            // A bound that a NaN does not pass.
-            if !(block.largest_overlap <= self.overlap_limit) {
+            if block.largest_overlap.is_nan() || block.largest_overlap > self.overlap_limit {
                 return Err(self.overlaps(block));
             }
         }

@@ -136,7 +136,7 @@ impl ContactLaw for RestitutionImpulse {
     }
 
     #[inline]
-    fn force(&self, own: &Self::Coefficients, contact: &Contact, _: &()) -> ContactForce {
+    fn force(&self, own: &Self::Coefficients, contact: &Contact, (): &()) -> ContactForce {
         let rate = 1.0 / contact.elapsed;
         let normal = contact.normal;
         let yielding = |along: DVec3| own.inverse_mass + along.dot(contact.mobility * along);
