@@ -55,7 +55,7 @@ fn bouncing<L: ContactLaw>(law: L, dt: f64, drop: f64) -> f64 {
 
 fn bounces() -> Vec<Case> {
     let drop = 1e-3;
-    let speed = (2.0 * 9.81 * drop).sqrt();
+    let speed = f64::sqrt(2.0 * 9.81 * drop);
     let k = hertz_constant((3e-3, 0.4e9, 0.3), (f64::INFINITY, 0.4e9, 0.3));
     let dt = hertz_duration(k, 0.2e-3, speed) / 100.0;
     [
