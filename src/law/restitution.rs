@@ -150,7 +150,11 @@ impl ContactLaw for RestitutionImpulse {
             return ContactForce::default();
         }
         let rebound = own.restitution * approach.max(0.0);
-        let correction = own.restitution.max(SETTLING) * contact.overlap.max(0.0) * rate;
+        // A completely inelastic impact leaves no speed: the half step that it may come late does not
+        // count as sunk, and only what presses on is lifted, by no more than it presses.
+        let sunk = (contact.overlap * rate - 0.5 * approach.max(0.0)).max(0.0);
+        let lifting = (SETTLING * sunk).min(ahead);
+        let correction = (own.restitution * contact.overlap.max(0.0) * rate).max(lifting);
         let impulse = (ahead + rebound.max(correction)) / yielding(normal);
         let mut force = ContactForce::new(impulse * rate, DVec3::ZERO);
         let slip = contact.velocity_ahead + ahead * normal;
