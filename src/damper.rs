@@ -24,6 +24,7 @@ mod error;
 mod impulse;
 mod particles;
 mod scene;
+mod setup;
 mod snapshot;
 
 pub use builder::Builder;
@@ -33,6 +34,7 @@ pub use snapshot::{RestoreError, Snapshot};
 
 use clock::Clock;
 use engine::{Engine, Step};
+use setup::Setup;
 
 /// What a particle touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,6 +76,7 @@ pub struct Damper<C, L: ContactLaw, M, D, I = VelocityVerlet> {
     integrator: I,
     clock: Clock,
     time_step: f64,
+    setup: Setup,
 }
 
 impl<C, L, M, D, I> Damper<C, L, M, D, I>
