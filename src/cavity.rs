@@ -93,6 +93,36 @@ pub trait Cavity {
     }
 }
 
+macro_rules! forward_cavity {
+    ($reference:ty) => {
+        impl<C: Cavity + ?Sized> Cavity for $reference {
+            fn walls(&self) -> u32 {
+                (**self).walls()
+            }
+
+            #[inline]
+            fn wall(&self, number: u32, point: DVec3) -> WallPoint {
+                (**self).wall(number, point)
+            }
+
+            fn bounds(&self) -> [DVec3; 2] {
+                (**self).bounds()
+            }
+
+            fn is_planar(&self) -> bool {
+                (**self).is_planar()
+            }
+
+            fn wall_name(&self, number: u32) -> &'static str {
+                (**self).wall_name(number)
+            }
+        }
+    };
+}
+
+forward_cavity!(&C);
+forward_cavity!(Box<C>);
+
 /// The least distance of `point` from any wall of `cavity`, in m; infinite without walls.
 pub(crate) fn clearance<C: Cavity + ?Sized>(cavity: &C, point: DVec3) -> f64 {
     (0..cavity.walls())

@@ -143,6 +143,31 @@ pub struct ContactForce {
     pub couple: DVec3,
 }
 
+/// What a contact holds by elasticity, and can give back.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Stored {
+    /// Elastic part of the normal force, in N, positive when pushing: minus the derivative of
+    /// `normal` by the distance of the bodies. What the normal force has besides is lost.
+    pub normal_force: f64,
+    /// Energy of the compression along the normal, in J.
+    pub normal: f64,
+    /// Energy of the tangential stretch, in J.
+    pub tangential: f64,
+}
+
+impl Stored {
+    /// The elastic normal force (N) and the energies (J) of compression and of tangential stretch.
+    #[must_use]
+    pub const fn new(normal_force: f64, normal: f64, tangential: f64) -> Self {
+        Self {
+            normal_force,
+            normal,
+            tangential,
+        }
+    }
+}
+
 impl ContactForce {
     /// A force without a couple.
     #[must_use]

@@ -11,7 +11,7 @@ use crate::error::Bound;
 use crate::integrator::{Integrator, VelocityVerlet};
 use crate::law::{ContactLaw, Evaluation};
 use crate::mount::{Driven, Motion, Mount};
-use crate::observer::Observer;
+use crate::observer::{Frame, Observer, View};
 use crate::particle::Particle;
 
 mod block;
@@ -26,11 +26,15 @@ mod particles;
 mod scene;
 mod setup;
 mod snapshot;
+mod view;
 
 pub use builder::Builder;
 pub use error::{BuildError, StepError};
 pub use scene::WallLoad;
 pub use snapshot::{RestoreError, Snapshot};
+
+/// The most steps of one call.
+const MOST_STEPS: f64 = 1e9;
 
 use clock::Clock;
 use engine::{Engine, Step};
@@ -130,6 +134,7 @@ where
         }
         self.clock.advance(dt);
         self.engine.time = self.clock.time();
+        observer.step(&Frame::new(self.engine.time, dt, &self.engine));
         Ok(())
     }
 
@@ -161,9 +166,7 @@ where
     /// frame.
     #[must_use]
     pub fn particle(&self, number: usize) -> Option<Particle> {
-        let slot = *self.engine.particles.slot.get(number)? as usize;
-        let cavity = self.engine.world.cavity_of(slot) as u32;
-        Some(self.engine.particles.particle(slot, cavity))
+        self.engine.particle(number)
     }
 
     /// The particles in the order of their numbers.
@@ -196,28 +199,19 @@ where
     /// The mount's generalised coordinates.
     #[must_use]
     pub fn coordinates(&self) -> &[f64] {
-        &self.engine.mount_state.position[..self.engine.mount.degrees()]
+        self.engine.coordinates()
     }
 
     /// The rates of the mount's generalised coordinates.
     #[must_use]
     pub fn rates(&self) -> &[f64] {
-        &self.engine.mount_state.velocity[..self.engine.mount.degrees()]
+        self.engine.rates()
     }
 
     /// Position and velocity of the container of a cavity.
     #[must_use]
     pub fn container(&self, cavity: usize) -> Option<Motion> {
-        let degrees = self.engine.mount.degrees();
-        let state = &self.engine.mount_state;
-        (cavity < self.engine.world.rooms.len()).then(|| {
-            self.engine.mount.motion(
-                self.time(),
-                &state.position[..degrees],
-                &state.velocity[..degrees],
-                cavity,
-            )
-        })
+        self.engine.container(cavity)
     }
 
     /// What the particles of a cavity did to its container over the last step.
@@ -235,9 +229,7 @@ where
     /// over the step.
     #[must_use]
     pub fn wall_load(&self, cavity: usize, wall: u32) -> Option<WallLoad> {
-        let room = self.engine.world.rooms.get(cavity)?;
-        (wall < room.cavity.walls())
-            .then(|| self.engine.wall_loads[(room.first_wall + wall) as usize])
+        self.engine.wall_load(cavity, wall)
     }
 
     /// How many contacts there were when they were evaluated last, walls included.
@@ -249,8 +241,7 @@ where
     /// The largest overlap in m when contacts were evaluated last.
     #[must_use]
     pub fn largest_overlap(&self) -> f64 {
-        let overlaps = self.engine.blocks.iter().map(|block| block.largest_overlap);
-        overlaps.fold(0.0, f64::max)
+        self.engine.largest_overlap()
     }
 
     /// How many particles have their centre outside their cavity.
@@ -317,7 +308,8 @@ where
     /// impulse over the interval.
     ///
     /// # Errors
-    /// If the interval is not positive or the motion is not finite; else as [`step`](Self::step).
+    /// If the interval is not positive or longer than a thousand million steps, or the motion is not
+    /// finite; else as [`step`](Self::step).
     pub fn drive(&mut self, end: Motion, interval: f64) -> Result<Reaction, StepError> {
         self.drive_watched(end, interval, &mut ())
     }
@@ -333,6 +325,7 @@ where
         observer: &mut O,
     ) -> Result<Reaction, StepError> {
         Bound::Positive.check("interval (s)", interval)?;
+        Bound::AtMost(MOST_STEPS * self.time_step).check("interval (s)", interval)?;
         if !(end.position.is_finite() && end.velocity.is_finite()) {
             return Err(StepError::Container {
                 cavity: 0,

@@ -139,11 +139,8 @@ impl Pairs {
     /// Proposes the pair of `a` and `b`, in either order.
     #[inline]
     pub fn push(&mut self, a: usize, b: usize) {
-        self.found.push(if a < b {
-            [a as u32, b as u32]
-        } else {
-            [b as u32, a as u32]
-        });
+        let [a, b] = [a as u32, b as u32];
+        self.found.push([a.min(b), a.max(b)]);
     }
 
     /// The proposals in the order in which they were made, the lower number first.

@@ -4,7 +4,7 @@ mod restitution;
 
 pub use restitution::{RestitutionCoefficients, RestitutionImpulse};
 
-use crate::contact::{Bodies, Contact, ContactForce};
+use crate::contact::{Bodies, Contact, ContactForce, Stored};
 use crate::error::ValueError;
 use crate::material::MaterialId;
 
@@ -72,6 +72,9 @@ pub enum LawError {
 ///    by [`Contact::elapsed`] (the paper's Eq. 12).
 /// 5. [`time_step_limit`](Self::time_step_limit) is the longest step that the law can bear; a builder
 ///    refuses a longer one.
+/// 6. [`stored`](Self::stored) tells energy that a contact holds from energy that it has lost. It is
+///    asked only by observers; by default all of the force's work counts as lost, or as a negative
+///    loss where it is given back.
 ///
 /// A linear spring and dashpot, complete:
 /// ```
@@ -133,6 +136,16 @@ pub trait ContactLaw {
         *memory
     }
 
+    /// What the contact holds and can give back, with what it remembers at the end of the step.
+    fn stored(
+        &self,
+        _coefficients: &Self::Coefficients,
+        _contact: &Contact,
+        _memory: &Self::Memory,
+    ) -> Stored {
+        Stored::default()
+    }
+
     /// When the law may be evaluated.
     #[inline]
     fn evaluation(&self) -> Evaluation {
@@ -179,6 +192,15 @@ macro_rules! forward_law {
                 memory: &Self::Memory,
             ) -> Self::Memory {
                 (**self).advance(coefficients, contact, memory)
+            }
+
+            fn stored(
+                &self,
+                coefficients: &Self::Coefficients,
+                contact: &Contact,
+                memory: &Self::Memory,
+            ) -> Stored {
+                (**self).stored(coefficients, contact, memory)
             }
 
             #[inline]

@@ -1,5 +1,7 @@
 //! Particle impact dampers.
 
+#![forbid(unsafe_code)]
+
 pub mod cavity;
 mod contact;
 mod damper;
@@ -14,11 +16,12 @@ pub mod mount;
 mod observer;
 mod particle;
 mod random;
+pub mod response;
 
 pub use glam;
 
 pub use cavity::{Cavity, Cuboid, Slot};
-pub use contact::{Bodies, Body, Contact, ContactForce};
+pub use contact::{Bodies, Body, Contact, ContactForce, Stored};
 pub use damper::{
     BuildError, Builder, Damper, Partner, Reaction, RestoreError, Snapshot, StepError, WallLoad,
 };
@@ -34,6 +37,10 @@ pub use law::{
     LawError, RestitutionImpulse, TangentialSpring,
 };
 pub use material::{Interaction, Material, MaterialId, Materials};
-pub use mount::{Driven, Motion, Mount, Prescribed, SingleDof};
-pub use observer::{ContactEvent, Observer};
+pub use mount::{Driven, Motion, Mount, MountEnergy, Prescribed, SingleDof};
+pub use observer::{
+    BedRegime, ContactEvent, Energies, EnergyLedger, Extremes, Frame, Losses, Observer, WallRecord,
+    WallRecorder,
+};
 pub use particle::Particle;
+pub use response::ResponseCurve;

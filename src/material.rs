@@ -43,6 +43,11 @@ impl Interaction {
         Ok(self)
     }
 
+    /// The same, if all numbers are in range: the fields can be set without asking.
+    pub(crate) fn checked(self) -> Result<Self, ValueError> {
+        Self::new(self.restitution, self.friction)?.with_rolling_friction(self.rolling_friction)
+    }
+
     /// The mixing rule for two materials whose pair was not given: the geometric mean of each
     /// coefficient.
     fn mixed(a: &Self, b: &Self) -> Self {
@@ -83,6 +88,12 @@ impl Material {
             poissons_ratio: Bound::AtMost(0.5).check("Poisson's ratio", poissons_ratio)?,
             interaction,
         })
+    }
+
+    /// The same, if its numbers are in range: the fields can be set without asking.
+    pub(crate) fn checked(&self) -> Result<&Self, ValueError> {
+        Self::new(self.youngs_modulus, self.poissons_ratio, self.interaction)?;
+        Ok(self)
     }
 
     /// The acrylic of the paper's Table 1: E 0.4 GPa, Poisson's ratio 0.3, friction 0.2, and the

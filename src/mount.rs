@@ -18,6 +18,41 @@ pub struct Motion {
     pub velocity: DVec3,
 }
 
+/// Energy of a mount at an instant, and the powers that change it, the particles' apart.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct MountEnergy {
+    /// Kinetic energy in J, containers included.
+    pub kinetic: f64,
+    /// Potential energy in J: springs.
+    pub potential: f64,
+    /// Power of the excitation in W, positive when it feeds the mount.
+    pub input: f64,
+    /// Power in W that the mount's damping takes away, not negative.
+    pub dissipation: f64,
+}
+
+impl MountEnergy {
+    /// Kinetic and potential energy (J) without powers.
+    #[must_use]
+    pub const fn new(kinetic: f64, potential: f64) -> Self {
+        Self {
+            kinetic,
+            potential,
+            input: 0.0,
+            dissipation: 0.0,
+        }
+    }
+
+    /// The same with the powers (W) of the excitation and of damping.
+    #[must_use]
+    pub const fn with_powers(mut self, input: f64, dissipation: f64) -> Self {
+        self.input = input;
+        self.dissipation = dissipation;
+        self
+    }
+}
+
 /// What carries the containers: a structure with generalised coordinates of its own, solved together
 /// with the particles, or a prescribed motion (no coordinates).
 ///
@@ -35,6 +70,8 @@ pub struct Motion {
 /// 4. [`strike`](Self::strike) adds to the coordinates' velocities what an impulse (N s) on one
 ///    container gives them, and [`mobility`](Self::mobility) is the same as a matrix: velocity of the
 ///    container per unit impulse on it (1/kg). A prescribed motion keeps the defaults: nothing.
+/// 5. [`energy`](Self::energy) is for observers. A mount without coordinates keeps the default: an
+///    [`EnergyLedger`](crate::EnergyLedger) counts the work of moving its containers by itself.
 ///
 /// Two equal masses on a line, coupled by a spring, with a container on each:
 /// ```
@@ -98,6 +135,11 @@ pub trait Mount {
         DMat3::ZERO
     }
 
+    /// Energy and powers at an instant; zero unless said otherwise.
+    fn energy(&self, _time: f64, _coordinates: &[f64], _velocities: &[f64]) -> MountEnergy {
+        MountEnergy::default()
+    }
+
     /// Told that the damper was restored to a state with the containers at `motions`. Only a mount
     /// that keeps state of its own besides its coordinates cares.
     fn resume(&mut self, _motions: &[Motion]) {}
@@ -133,6 +175,10 @@ impl<M: Mount + ?Sized> Mount for &mut M {
 
     fn mobility(&self, cavity: usize) -> DMat3 {
         (**self).mobility(cavity)
+    }
+
+    fn energy(&self, time: f64, coordinates: &[f64], velocities: &[f64]) -> MountEnergy {
+        (**self).energy(time, coordinates, velocities)
     }
 
     fn resume(&mut self, motions: &[Motion]) {

@@ -1,7 +1,22 @@
 //! Observers: what watches a step from outside.
 
-use crate::contact::{Contact, ContactForce};
+use glam::DVec3;
+
+use crate::contact::{Contact, ContactForce, Stored};
 use crate::damper::Partner;
+
+mod energy;
+mod extremes;
+mod frame;
+mod regime;
+mod walls;
+
+pub use energy::{Energies, EnergyLedger, Losses};
+pub use extremes::Extremes;
+pub use frame::Frame;
+pub(crate) use frame::View;
+pub use regime::BedRegime;
+pub use walls::{WallRecord, WallRecorder};
 
 /// A contact of an accepted step, as an observer sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,17 +32,45 @@ pub struct ContactEvent {
     pub contact: Contact,
     /// The force on the particle.
     pub force: ContactForce,
+    /// What the contact holds at the end of the step and can give back; nothing under an impulse law.
+    pub stored: Stored,
+    /// The relative surface velocity (m/s) that the force works on. Under an impulse law it is the
+    /// mean of before and after the impulse, with half of what gravity and the container's motion
+    /// add over the step: `force` times it times the time step is exactly the kinetic energy that the
+    /// impulse gives. Else it is the velocity of `contact`.
+    pub working_velocity: DVec3,
+    /// The angular velocity (rad/s) of the first body relative to the second that the couple works
+    /// on, likewise.
+    pub working_spin: DVec3,
 }
 
 /// Watches steps from outside. `()` watches nothing and costs nothing; a pair `(A, B)` is both.
 ///
 /// # Using
-/// Pass one to [`Damper::step_watched`](crate::Damper::step_watched).
+/// Pass one to [`Damper::step_watched`](crate::Damper::step_watched). The crate has an
+/// [`EnergyLedger`], a [`WallRecorder`], [`Extremes`] and [`BedRegime`].
 ///
 /// # Implementing
 /// 1. [`wants_contacts`](Self::wants_contacts) is constant over a step. Only if it is true,
-/// 2. [`contact`](Self::contact) is called once per accepted step for each touching contact, in
-///    canonical order.
+/// 2. [`contact`](Self::contact) is called for each touching contact, in canonical order: once per
+///    step under a law that is evaluated at every stage, once per impulse under an impulse law, which
+///    may strike a contact several times in a step.
+/// 3. [`step`](Self::step) is called once at the end of each accepted step, after its contacts; a
+///    [drive](crate::Damper::drive) of several steps calls it for each.
+///
+/// An observer never changes the trajectory. The height of the lowest particle:
+/// ```
+/// use particle_damper::{Frame, Observer};
+///
+/// struct Lowest(f64);
+///
+/// impl Observer for Lowest {
+///     fn step(&mut self, frame: &Frame<'_>) {
+///         let heights = frame.particles().map(|particle| particle.position.y);
+///         self.0 = heights.fold(f64::INFINITY, f64::min);
+///     }
+/// }
+/// ```
 pub trait Observer {
     /// Whether contacts are to be reported.
     fn wants_contacts(&self) -> bool {
@@ -36,6 +79,9 @@ pub trait Observer {
 
     /// A contact of the step.
     fn contact(&mut self, _event: &ContactEvent) {}
+
+    /// The end of a step.
+    fn step(&mut self, _frame: &Frame<'_>) {}
 }
 
 impl Observer for () {}
@@ -47,6 +93,10 @@ impl<O: Observer + ?Sized> Observer for &mut O {
 
     fn contact(&mut self, event: &ContactEvent) {
         (**self).contact(event);
+    }
+
+    fn step(&mut self, frame: &Frame<'_>) {
+        (**self).step(frame);
     }
 }
 
@@ -62,5 +112,10 @@ impl<A: Observer, B: Observer> Observer for (A, B) {
         if self.1.wants_contacts() {
             self.1.contact(event);
         }
+    }
+
+    fn step(&mut self, frame: &Frame<'_>) {
+        self.0.step(frame);
+        self.1.step(frame);
     }
 }

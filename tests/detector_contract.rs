@@ -1,6 +1,8 @@
 //! The contract of `Detector`, held against every detector by one body: exactly the pairs that
 //! testing each pair gives, each once.
 
+#![allow(clippy::unwrap_used)]
+
 use particle_damper::glam::DVec3;
 use particle_damper::{
     AllPairs, Bed, CellGrid, Counted, Detector, DetectorError, LinkedCells, Neighbourhood, Pairs,
@@ -131,7 +133,9 @@ fn case() -> impl Strategy<Value = Case> {
             let then: Vec<_> = particles.iter().map(|p| p.1).collect();
             let fixed = |places: &[_]| {
                 let mut centres = positions(places, bounds, radius, planar);
-                centres.iter_mut().for_each(|centre| *centre += origin);
+                for centre in &mut centres {
+                    *centre += origin;
+                }
                 centres
             };
             Case {
@@ -279,6 +283,73 @@ fn grids_that_cannot_be_are_refused() {
         Err(DetectorError::TooManyCells { limit, .. }) if limit == CellGrid::MAX_CELLS
     ));
     assert!(CellGrid::new(4095, 4095).is_ok());
+}
+
+/// Found by a search: centres on the borders of cells, a diameter less one rounding apart, whose
+/// coordinates round to cells that are farther apart than a diameter.
+#[test]
+fn rounding_at_the_borders_of_cells_loses_nothing() {
+    for (lower, width, cells, per_diameter, centres) in [
+        (
+            -0.274_703_587_447_073_8,
+            0.764_156_254_137_906_1,
+            10_u32,
+            3.0,
+            [-0.007_248_898_498_745_826, 0.221_997_977_742_678_13],
+        ),
+        (
+            -0.870_694_714_249_749_9,
+            0.882_180_664_320_026_4,
+            40,
+            2.0,
+            [-0.330_359_057_353_733_7, -0.286_250_024_137_732_43],
+        ),
+        (
+            -0.558_245_922_225_682_6,
+            0.854_453_359_406_675_1,
+            33,
+            1.0,
+            [-0.156_911_780_562_114_58, -0.131_019_254_519_488_07],
+        ),
+    ] {
+        let bounds = [DVec3::X * lower, DVec3::new(lower + width, 1.0, 0.0)];
+        let radius = per_diameter * (bounds[1].x - bounds[0].x) / f64::from(cells) / 2.0;
+        let centres = centres.map(|x| DVec3::X * x);
+        let radii = [radius; 2];
+        let bed = Bed::new(&centres, &radii, bounds).in_plane(true);
+        assert_eq!(touching(&bed), [[0, 1]]);
+        let mut grid = CellGrid::new(cells as usize, 1).unwrap();
+        grid.prepare(&bed).unwrap();
+        assert_eq!(proposals(&mut grid, &bed), [[0, 1]]);
+    }
+}
+
+/// A chain of particles that barely touch: any cell shorter than a diameter would separate some.
+#[test]
+fn linked_cells_are_no_shorter_than_the_contact_distance() {
+    for axis in DVec3::AXES {
+        let chain: Vec<_> = (0..2000)
+            .map(|number| axis * f64::from(number) * (2.0 - 1e-6))
+            .collect();
+        for smallest in [1.0, 0.3] {
+            let mut radii = vec![1.0; chain.len()];
+            radii[0] = smallest;
+            let bounds = [DVec3::ZERO, axis * 4000.0];
+            let bed = Bed::new(&chain, &radii, bounds);
+            let mut cells = LinkedCells::new();
+            cells.prepare(&bed).unwrap();
+            assert_eq!(proposals(&mut cells, &bed), touching(&bed));
+        }
+    }
+}
+
+#[test]
+fn unprepared_detectors_are_slow_but_exact() {
+    let positions: Vec<_> = (0..20).map(|x| DVec3::X * f64::from(x)).collect();
+    let radii = [0.51; 20];
+    let bed = Bed::new(&positions, &radii, [DVec3::ZERO, DVec3::ONE]);
+    assert_eq!(proposals(&mut CellGrid::paper(), &bed), touching(&bed));
+    assert_eq!(proposals(&mut LinkedCells::new(), &bed), touching(&bed));
 }
 
 #[test]

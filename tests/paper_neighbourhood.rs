@@ -1,5 +1,7 @@
 //! The paper's neighbourhood of 20 cells misses contacts, and the grid says how many.
 
+#![allow(clippy::unwrap_used)]
+
 use particle_damper::glam::DVec3;
 use particle_damper::{Bed, CellGrid, Detector, Neighbourhood, Pairs};
 
@@ -74,7 +76,7 @@ fn the_papers_neighbourhood_misses_contacts_on_the_coarse_grid() {
 #[test]
 fn the_papers_neighbourhood_misses_nothing_on_finer_grids() {
     for [across, up] in [[40, 64], [80, 128]] {
-        assert_eq!(missed_part(across, up, 1e-9), 0.0);
-        assert_eq!(missed_part(across, up, 0.04), 0.0);
+        assert!(missed_part(across, up, 1e-9) <= 0.0);
+        assert!(missed_part(across, up, 0.04) <= 0.0);
     }
 }

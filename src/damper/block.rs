@@ -44,11 +44,6 @@ pub(crate) struct Block<L: ContactLaw> {
     pub(crate) pairs: Candidates<L>,
     pub(crate) border: Candidates<L>,
     pub(crate) walls: Candidates<L>,
-    touching: Vec<Touch>,
-    /// Ends of the runs of touching pairs, pairs across the border, and walls.
-    touching_pairs: usize,
-    touching_border: usize,
-    touching_walls: usize,
     pub(crate) parcels: Vec<Parcel>,
     pub(crate) loads: Vec<WallLoad>,
     pub(crate) contacts: usize,
@@ -58,16 +53,11 @@ pub(crate) struct Block<L: ContactLaw> {
 
 impl<L: ContactLaw> Block<L> {
     pub(crate) fn new(slots: Range<usize>, walls: usize) -> Self {
-        let first = slots.start as u32;
         Self {
             slots,
-            pairs: Candidates::new(first),
-            border: Candidates::new(first),
-            walls: Candidates::new(first),
-            touching: Vec::new(),
-            touching_pairs: 0,
-            touching_border: 0,
-            touching_walls: 0,
+            pairs: Candidates::default(),
+            border: Candidates::default(),
+            walls: Candidates::default(),
             parcels: Vec::new(),
             loads: vec![WallLoad::default(); walls],
             contacts: 0,
@@ -92,22 +82,24 @@ impl<L: ContactLaw> Block<L> {
         self.walls.remember(stamp, walls);
     }
 
-    /// Makes finished lists ready for use.
+    /// Makes finished lists ready for use, but for what the law has to [`prepare`](Self::prepare).
     pub(crate) fn finish<C: Cavity>(
         &mut self,
         scene: &Scene<'_, C, L>,
         memory: &[Vec<Remembered<L::Memory>>; 2],
-    ) -> Result<(), LawError> {
+    ) {
         let [pairs, walls] = memory;
-        self.pairs.recall(scene.stamp, pairs);
-        self.border.recall(scene.stamp, pairs);
-        self.walls.recall(scene.stamp, walls);
+        self.pairs.finish(scene.stamp, pairs);
+        self.border.finish(scene.stamp, pairs);
+        self.walls.finish(scene.stamp, walls);
+        self.parcels.reserve(self.border.candidates());
+    }
+
+    /// Asks the law for the pairs of finished lists.
+    pub(crate) fn prepare<C: Cavity>(&mut self, scene: &Scene<'_, C, L>) -> Result<(), LawError> {
         for list in [&mut self.pairs, &mut self.border] {
             list.prepare(scene.law, scene.coefficients, scene.species)?;
         }
-        let candidates = self.pairs.len() + self.border.len() + self.walls.len();
-        self.touching.resize(candidates + 1, Touch::default());
-        self.parcels.reserve(self.border.len());
         Ok(())
     }
 
@@ -131,11 +123,13 @@ impl<L: ContactLaw> Block<L> {
                 trusted &= (*position - origin - *reference).length_squared() <= limit;
             }
         }
-        let found = list_pairs(&self.pairs, scene, &mut self.touching, 0);
-        self.touching_pairs = found;
-        let found = list_pairs(&self.border, scene, &mut self.touching, found);
-        self.touching_border = found;
-        self.touching_walls = list_walls(&self.walls, scene, &mut self.touching, found);
+        let position = scene.position;
+        for list in [&mut self.pairs, &mut self.border] {
+            list.find(|i, j| position[i].distance_squared(position[j as usize]));
+            list.take_roots();
+        }
+        self.walls
+            .find(|i, wall| scene.wall_point(wall, position[i]).distance);
         trusted
     }
 
@@ -160,7 +154,7 @@ impl<L: ContactLaw> Block<L> {
         self.loads.fill(WallLoad::default());
         self.parcels.clear();
         self.forget();
-        self.contacts = self.touching_walls;
+        self.contacts = self.contacts_in_reach();
         self.evaluate_pairs::<C, O, END>(scene, force, torque, observer);
         self.evaluate_border::<C, O, END>(scene, force, torque, observer);
         self.evaluate_walls::<C, O, END>(scene, force, torque, observer);
@@ -174,7 +168,6 @@ impl<L: ContactLaw> Block<L> {
         observer: &mut O,
     ) {
         let base = self.slots.start;
-        let touching = &self.touching[..self.touching_pairs];
         let torque = &mut torque[..force.len()];
         let deliver = |touch: &Touch, push: DVec3, turns: [DVec3; 2]| {
             let (i, j) = (touch.first as usize - base, touch.second as usize - base);
@@ -186,7 +179,7 @@ impl<L: ContactLaw> Block<L> {
             }
         };
         let pairs = &mut self.pairs;
-        let deepest = answer_pairs::<C, L, O, END>(scene, pairs, touching, observer, deliver);
+        let deepest = answer_pairs::<C, L, O, END>(scene, pairs, observer, deliver);
         self.largest_overlap = self.largest_overlap.max(deepest);
     }
 
@@ -198,7 +191,6 @@ impl<L: ContactLaw> Block<L> {
         observer: &mut O,
     ) {
         let base = self.slots.start;
-        let touching = &self.touching[self.touching_pairs..self.touching_border];
         let parcels = &mut self.parcels;
         let deliver = |touch: &Touch, push: DVec3, turns: [DVec3; 2]| {
             let i = touch.first as usize - base;
@@ -211,7 +203,7 @@ impl<L: ContactLaw> Block<L> {
             });
         };
         let border = &mut self.border;
-        let deepest = answer_pairs::<C, L, O, END>(scene, border, touching, observer, deliver);
+        let deepest = answer_pairs::<C, L, O, END>(scene, border, observer, deliver);
         self.largest_overlap = self.largest_overlap.max(deepest);
     }
 
@@ -223,7 +215,8 @@ impl<L: ContactLaw> Block<L> {
         observer: &mut O,
     ) {
         let base = self.slots.start;
-        for touch in &self.touching[self.touching_border..self.touching_walls] {
+        for number in 0..self.walls.contacts.len() {
+            let touch = self.walls.touch(number);
             let (slot, wall) = (touch.first as usize, touch.second);
             let grain = scene.grain(slot);
             let point = scene.wall_point(wall, grain.position);
@@ -253,100 +246,61 @@ impl<L: ContactLaw> Block<L> {
                 });
             }
             if END && observer.wants_contacts() {
-                report_wall(scene, *touch, &contact, &answer, observer);
+                report_wall(scene, &self.walls, touch, &contact, &answer, observer);
             }
         }
     }
 
+    /// How many contacts are within the law's reach.
+    pub(crate) const fn contacts_in_reach(&self) -> usize {
+        self.pairs.contacts.len() + self.border.contacts.len() + self.walls.contacts.len()
+    }
+
+    /// The pairs in contact, with their overlaps.
+    pub(crate) fn overlapping_pairs<C: Cavity>(
+        &self,
+        scene: &Scene<'_, C, L>,
+    ) -> impl Iterator<Item = (f64, usize, usize)> {
+        self.pairs
+            .touching()
+            .chain(self.border.touching())
+            .map(|touch| {
+                let (i, j) = (touch.first as usize, touch.second as usize);
+                (scene.radius[i] + scene.radius[j] - touch.distance, i, j)
+            })
+    }
+
+    /// The walls in contact, with their overlaps.
+    pub(crate) fn overlapping_walls<C: Cavity>(
+        &self,
+        scene: &Scene<'_, C, L>,
+    ) -> impl Iterator<Item = (f64, usize, u32)> {
+        self.walls.touching().map(|touch| {
+            let slot = touch.first as usize;
+            (scene.radius[slot] - touch.distance, slot, touch.second)
+        })
+    }
+
     /// The deepest contact of the block.
     pub(crate) fn deepest<C: Cavity>(&self, scene: &Scene<'_, C, L>) -> Option<Place> {
-        let (pairs, walls) = self.touching();
-        let pairs = pairs.iter().map(|touch| {
-            let (slot, other) = (touch.first as usize, touch.second as usize);
+        let pairs = self.overlapping_pairs(scene).map(|(overlap, slot, other)| {
             let partner = Partner::Particle(scene.number[other] as usize);
-            let overlap = scene.pair(slot, other).contact.overlap;
             (overlap, Place { slot, partner })
         });
-        let walls = walls.iter().map(|touch| {
-            let (slot, wall) = (touch.first as usize, touch.second);
+        let walls = self.overlapping_walls(scene).map(|(overlap, slot, wall)| {
             let partner = Partner::Wall(wall - scene.room_of_wall(wall).first_wall);
-            let overlap = scene.wall_overlap(slot, wall);
             (overlap, Place { slot, partner })
         });
         let deepest = pairs.chain(walls).max_by(|a, b| a.0.total_cmp(&b.0));
         deepest.map(|(_, place)| place)
     }
 
-    /// The touching pairs, first those within the block and then those across its border, and the
-    /// touching walls.
-    pub(crate) fn touching(&self) -> (&[Touch], &[Touch]) {
-        self.touching[..self.touching_walls].split_at(self.touching_border)
-    }
-
-    /// The list that a touching pair stands in.
-    pub(crate) const fn list_of_pair(&mut self, index: usize) -> &mut Candidates<L> {
-        if index < self.touching_pairs {
-            &mut self.pairs
-        } else {
-            &mut self.border
-        }
-    }
-
     /// Memory in bytes that the block has reserved.
     pub(crate) fn reserved_bytes(&self) -> usize {
         let lists = [&self.pairs, &self.border, &self.walls];
         lists.map(Candidates::reserved_bytes).iter().sum::<usize>()
-            + size_of::<Touch>() * self.touching.capacity()
             + size_of::<Parcel>() * self.parcels.capacity()
     }
-}
-
-/// Lists the pairs within the law's reach, from place `found` on; returns where the list ends.
-///
-/// Entries are written before it is known whether they count: no branch to mispredict.
-fn list_pairs<C: Cavity, L: ContactLaw>(
-    candidates: &Candidates<L>,
-    scene: &Scene<'_, C, L>,
-    touching: &mut [Touch],
-    mut found: usize,
-) -> usize {
-    let position = scene.position;
-    let radius = &scene.radius[..position.len()];
-    for (first, place, partners) in candidates.rows() {
-        let centre = position[first as usize];
-        let reach = radius[first as usize] + scene.reach;
-        for (place, second) in (place..).zip(partners) {
-            let (second, other) = (*second, *second as usize);
-            let reach = reach + radius[other];
-            touching[found] = Touch {
-                first,
-                second,
-                place,
-            };
-            found += usize::from(centre.distance_squared(position[other]) < reach * reach);
-        }
-    }
-    found
-}
-
-/// Lists the walls within the law's reach, from place `found` on; returns where the list ends.
-fn list_walls<C: Cavity, L: ContactLaw>(
-    candidates: &Candidates<L>,
-    scene: &Scene<'_, C, L>,
-    touching: &mut [Touch],
-    mut found: usize,
-) -> usize {
-    for (first, place, walls) in candidates.rows() {
-        for (place, wall) in (place..).zip(walls) {
-            touching[found] = Touch {
-                first,
-                second: *wall,
-                place,
-            };
-            found += usize::from(scene.wall_overlap(first as usize, *wall) > -scene.reach);
-        }
-    }
-    found
 }
 
 /// The law's answer to a contact; at the end of a step the contact's memory advances.
@@ -374,7 +328,6 @@ fn answer<L: ContactLaw, const END: bool>(
 fn answer_pairs<C: Cavity, L: ContactLaw, O: Observer, const END: bool>(
     scene: &Scene<'_, C, L>,
     list: &mut Candidates<L>,
-    touching: &[Touch],
     observer: &mut O,
     mut deliver: impl FnMut(&Touch, DVec3, [DVec3; 2]),
 ) -> f64 {
@@ -385,7 +338,8 @@ fn answer_pairs<C: Cavity, L: ContactLaw, O: Observer, const END: bool>(
     let species = &scene.species[..count];
     let watched = END && observer.wants_contacts();
     let mut deepest = 0.0_f64;
-    for touch in touching {
+    for number in 0..list.contacts.len() {
+        let touch = list.touch(number);
         let (i, j) = (touch.first as usize, touch.second as usize);
         if i >= count || j >= count {
             continue;
@@ -396,55 +350,69 @@ fn answer_pairs<C: Cavity, L: ContactLaw, O: Observer, const END: bool>(
             spin: spin[slot],
             radius: radius[slot],
         };
-        let pair = PairContact::new(&grain(i), &grain(j), scene.elapsed);
+        let pair = PairContact::new(&grain(i), &grain(j), &touch, scene.elapsed);
         let own = list.prepared(touch.place);
         let kind = scene.coefficients.pair(species[i], species[j], own);
         let (stamp, law) = (scene.stamp, scene.law);
         let answer = answer::<L, END>(stamp, law, list, touch.place, &kind, &pair.contact);
         deepest = deepest.max(pair.contact.overlap);
         let (push, first, second) = pair.resolve(&answer);
-        deliver(touch, push, [first, second]);
+        deliver(&touch, push, [first, second]);
         if watched {
-            report_pair(scene, *touch, &pair.contact, &answer, observer);
+            report_pair(scene, list, touch, &pair.contact, &answer, observer);
         }
     }
     deepest
 }
 
-/// Tells `observer` of a pair.
+/// Tells `observer` of a pair in `list`.
 #[cold]
 fn report_pair<C: Cavity, L: ContactLaw>(
     scene: &Scene<'_, C, L>,
+    list: &Candidates<L>,
     touch: Touch,
     contact: &Contact,
     force: &ContactForce,
     observer: &mut impl Observer,
 ) {
-    let slot = touch.first as usize;
+    let (slot, other) = (touch.first as usize, touch.second as usize);
+    let prepared = list.prepared(touch.place);
+    let (first, second) = (scene.species[slot], scene.species[other]);
+    let kind = scene.coefficients.pair(first, second, prepared);
+    let memory = list.memory(touch.place, scene.stamp.wrapping_add(1));
     observer.contact(&ContactEvent {
         particle: scene.number[slot] as usize,
-        partner: Partner::Particle(scene.number[touch.second as usize] as usize),
+        partner: Partner::Particle(scene.number[other] as usize),
         cavity: scene.rooms.partition_point(|room| room.slots.end <= slot),
         contact: *contact,
         force: *force,
+        stored: scene.law.stored(&kind, contact, &memory),
+        working_velocity: contact.velocity,
+        working_spin: contact.spins[0] - contact.spins[1],
     });
 }
 
-/// Tells `observer` of a contact with a wall.
+/// Tells `observer` of a contact with a wall in `list`.
 #[cold]
 fn report_wall<C: Cavity, L: ContactLaw>(
     scene: &Scene<'_, C, L>,
+    list: &Candidates<L>,
     touch: Touch,
     contact: &Contact,
     force: &ContactForce,
     observer: &mut impl Observer,
 ) {
-    let wall = touch.second;
+    let (slot, wall) = (touch.first as usize, touch.second);
+    let kind = scene.coefficients.wall(scene.species[slot]);
+    let memory = list.memory(touch.place, scene.stamp.wrapping_add(1));
     observer.contact(&ContactEvent {
-        particle: scene.number[touch.first as usize] as usize,
+        particle: scene.number[slot] as usize,
         partner: Partner::Wall(wall - scene.room_of_wall(wall).first_wall),
         cavity: scene.cavity_of_wall(wall),
         contact: *contact,
         force: *force,
+        stored: scene.law.stored(kind, contact, &memory),
+        working_velocity: contact.velocity,
+        working_spin: contact.spins[0],
     });
 }

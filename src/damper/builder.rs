@@ -25,6 +25,9 @@ const INITIAL_OVERLAP: f64 = 0.05;
 /// last over the stages of a step.
 const STAGE_MARGIN: f64 = 0.05;
 
+/// The most walls: each block of particles keeps a sum for each.
+const MOST_WALLS: u64 = 1 << 20;
+
 /// Puts a [`Damper`] together.
 #[derive(Debug, Clone)]
 #[must_use]
@@ -32,7 +35,8 @@ pub struct Builder<C, L, M = Driven, D = Skin<LinkedCells>, I = VelocityVerlet> 
     cavities: Vec<C>,
     law: L,
     mount: M,
-    detector: D,
+    detectors: Vec<D>,
+    copy: Option<fn(&D) -> D>,
     integrator: I,
     gravity: DVec3,
     time_step: Option<f64>,
@@ -49,7 +53,8 @@ impl<C, L> Builder<C, L> {
             cavities: vec![cavity],
             law,
             mount: Driven::default(),
-            detector: Skin::default(),
+            detectors: vec![Skin::default()],
+            copy: Some(Clone::clone),
             integrator: VelocityVerlet::default(),
             gravity: DVec3::NEG_Y * 9.81,
             time_step: None,
@@ -65,28 +70,68 @@ impl<C, L> Builder<C, L> {
 impl<C, L, M, D, I> Builder<C, L, M, D, I> {
     /// What the container is mounted on.
     pub fn mount<N: Mount>(self, mount: N) -> Builder<C, L, N, D, I> {
-        self.with(|parts| (mount, parts.1, parts.2))
-    }
-
-    /// How contacts are found. Every detector gives the same trajectory to the bit.
-    pub fn detector<E: Detector>(self, detector: E) -> Builder<C, L, M, E, I> {
-        self.with(|parts| (parts.0, detector, parts.2))
-    }
-
-    /// How time is integrated.
-    pub fn integrator<J: Integrator>(self, integrator: J) -> Builder<C, L, M, D, J> {
-        self.with(|parts| (parts.0, parts.1, integrator))
-    }
-
-    /// The same builder with other parts.
-    fn with<N, E, J>(self, change: impl FnOnce((M, D, I)) -> (N, E, J)) -> Builder<C, L, N, E, J> {
-        let (mount, detector, integrator) = change((self.mount, self.detector, self.integrator));
         Builder {
             cavities: self.cavities,
             law: self.law,
             mount,
-            detector,
+            detectors: self.detectors,
+            copy: self.copy,
+            integrator: self.integrator,
+            gravity: self.gravity,
+            time_step: self.time_step,
+            wall_material: self.wall_material,
+            particles: self.particles,
+            initial_overlap: self.initial_overlap,
+            overlap_limit: self.overlap_limit,
+            contained: self.contained,
+        }
+    }
+
+    /// How contacts are found, in every cavity. All detectors give the same trajectory to the bit.
+    pub fn detector<E: Detector + Clone>(self, detector: E) -> Builder<C, L, M, E, I> {
+        self.detected_by(vec![detector], Some(E::clone))
+    }
+
+    /// A detector for each cavity in turn: one that is chosen at run time (`Box<dyn Detector>`) or
+    /// borrowed cannot be copied.
+    pub fn detectors<E: Detector>(
+        self,
+        detectors: impl IntoIterator<Item = E>,
+    ) -> Builder<C, L, M, E, I> {
+        self.detected_by(detectors.into_iter().collect(), None)
+    }
+
+    /// How time is integrated.
+    pub fn integrator<J: Integrator>(self, integrator: J) -> Builder<C, L, M, D, J> {
+        Builder {
+            cavities: self.cavities,
+            law: self.law,
+            mount: self.mount,
+            detectors: self.detectors,
+            copy: self.copy,
             integrator,
+            gravity: self.gravity,
+            time_step: self.time_step,
+            wall_material: self.wall_material,
+            particles: self.particles,
+            initial_overlap: self.initial_overlap,
+            overlap_limit: self.overlap_limit,
+            contained: self.contained,
+        }
+    }
+
+    fn detected_by<E>(
+        self,
+        detectors: Vec<E>,
+        copy: Option<fn(&E) -> E>,
+    ) -> Builder<C, L, M, E, I> {
+        Builder {
+            cavities: self.cavities,
+            law: self.law,
+            mount: self.mount,
+            detectors,
+            copy,
+            integrator: self.integrator,
             gravity: self.gravity,
             time_step: self.time_step,
             wall_material: self.wall_material,
@@ -152,7 +197,7 @@ where
     C: Cavity,
     L: ContactLaw,
     M: Mount,
-    D: Detector + Clone,
+    D: Detector,
     I: Integrator,
 {
     /// Checks everything, and builds the damper.
@@ -161,6 +206,7 @@ where
     /// A [`BuildError`] for the first thing that cannot be: it holds the value and the bound.
     pub fn build(mut self) -> Result<Damper<C, L, M, D, I>, BuildError> {
         self.check_numbers()?;
+        self.check_counts()?;
         self.check_particles()?;
         let numbers = self.order_by_cavity();
         let particles = Particles::new(&self.particles, numbers);
@@ -172,7 +218,7 @@ where
         let walls = Engine::<C, L, M, D>::wall_count(&rooms);
         let mut engine = Engine {
             mount_state: MountState::new(&self.mount, rooms.len()),
-            detectors: vec![self.detector; rooms.len()],
+            detectors: self.detectors,
             mount: self.mount,
             gravity: self.gravity,
             blocks: Engine::<C, L, M, D>::make_blocks(particles.len(), walls),
@@ -223,7 +269,8 @@ where
         Ok(())
     }
 
-    fn check_particles(&self) -> Result<(), BuildError> {
+    /// Counts particles and walls, and hands out detectors.
+    fn check_counts(&mut self) -> Result<(), BuildError> {
         let limit = u32::MAX as usize - BLOCK;
         if self.particles.len() > limit {
             return Err(BuildError::TooManyParticles {
@@ -231,6 +278,31 @@ where
                 limit,
             });
         }
+        let walls = self.cavities.iter().map(|cavity| u64::from(cavity.walls()));
+        let walls = walls.sum();
+        if walls > MOST_WALLS {
+            return Err(BuildError::TooManyWalls {
+                count: walls,
+                limit: MOST_WALLS,
+            });
+        }
+        if let ([detector], Some(copy)) = (&self.detectors[..], self.copy) {
+            let more = self.cavities.len() - 1;
+            let copies: Vec<D> = std::iter::repeat_with(|| copy(detector))
+                .take(more)
+                .collect();
+            self.detectors.extend(copies);
+        }
+        if self.detectors.len() != self.cavities.len() {
+            return Err(BuildError::DetectorCount {
+                detectors: self.detectors.len(),
+                cavities: self.cavities.len(),
+            });
+        }
+        Ok(())
+    }
+
+    fn check_particles(&self) -> Result<(), BuildError> {
         for (number, particle) in self.particles.iter().enumerate() {
             check_particle(particle).map_err(|error| BuildError::Particle {
                 particle: number,
@@ -290,24 +362,26 @@ where
                 Err(BuildError::TimeStepTooLong { time_step, limit })
             }
             Some(time_step) => Ok(time_step),
-            None if limit.is_finite() => Ok(0.5 * limit),
+            None if limit.is_finite() => Ok(
+                Bound::Positive.check("time step (s), half of the law's limit,", 0.5 * limit)?
+            ),
             None => Err(BuildError::NoTimeStep),
         }
     }
 
     fn rooms(&mut self, smallest_radius: f64) -> Vec<Room<C>> {
-        let margin = if smallest_radius.is_finite() {
-            let skin = self.detector.skin(smallest_radius);
-            skin.max(STAGE_MARGIN * smallest_radius)
-        } else {
-            0.0
-        };
         let (mut slot, mut wall) = (0, 0);
         let mut rooms = Vec::new();
         for (number, cavity) in std::mem::take(&mut self.cavities).into_iter().enumerate() {
             let own = |particle: &&Particle| particle.cavity as usize == number;
             let end = slot + self.particles.iter().filter(own).count();
             let walls = cavity.walls();
+            let margin = if smallest_radius.is_finite() {
+                let skin = self.detectors[number].skin(smallest_radius);
+                skin.max(STAGE_MARGIN * smallest_radius)
+            } else {
+                0.0
+            };
             rooms.push(Room {
                 cavity,
                 slots: slot..end,
@@ -333,6 +407,10 @@ fn room_of_wall<C: Cavity>(rooms: &[Room<C>]) -> Vec<u32> {
 fn check_particle(particle: &Particle) -> Result<(), crate::ValueError> {
     Bound::Positive.check("radius (m)", particle.radius)?;
     Bound::Positive.check("mass (kg)", particle.mass)?;
+    // Their reciprocals have to be finite.
+    let smallest = Bound::AtLeast(f64::MIN_POSITIVE);
+    smallest.check("mass (kg)", particle.mass)?;
+    smallest.check("moment of inertia (kg m^2)", particle.inertia())?;
     for (quantity, vector) in [
         ("position (m)", particle.position),
         ("velocity (m/s)", particle.velocity),
@@ -357,19 +435,15 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Places the containers and the particles in them, refuses overlaps of more than `allowed` (m),
     /// and evaluates the first accelerations.
     fn start(&mut self, allowed: f64) -> Result<(), BuildError> {
-        for room in &self.world.rooms {
+        for (cavity, room) in self.world.rooms.iter().enumerate() {
             if room.cavity.is_planar() {
                 // A mount that leaves the plane shows it in how it yields.
-                let mobility = self.mount.mobility(0);
+                let mobility = self.mount.mobility(cavity);
                 in_plane("axis of the mount", mobility.z_axis + mobility.row(2))?;
             }
         }
         self.place_containers(0.0)?;
         for (room, detector) in self.world.rooms.iter().zip(&mut self.detectors) {
-            if room.cavity.is_planar() {
-                in_plane("position of the container", room.motion.position)?;
-                in_plane("velocity of the container", room.motion.velocity)?;
-            }
             let slots = room.slots.clone();
             let bed = Bed::new(
                 &self.particles.position[slots.clone()],
@@ -397,10 +471,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
     fn check_initial_overlaps(&self, limit: f64) -> Result<(), BuildError> {
         let scene = self.world.scene(&self.particles, 0.0);
-        for touch in self.blocks.iter().flat_map(|block| block.touching().0) {
-            let (first, second) = (touch.first as usize, touch.second as usize);
-            let overlap = scene.pair(first, second).contact.overlap;
-            if overlap > limit {
+        for block in &self.blocks {
+            let mut pairs = block.overlapping_pairs(&scene);
+            if let Some((overlap, first, second)) = pairs.find(|pair| pair.0 > limit) {
                 return Err(BuildError::InitialOverlap {
                     first: self.particles.number[first] as usize,
                     second: self.particles.number[second] as usize,
@@ -408,12 +481,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     limit,
                 });
             }
-        }
-        for touch in self.blocks.iter().flat_map(|block| block.touching().1) {
-            let (slot, wall) = (touch.first as usize, touch.second);
-            let room = scene.room_of_wall(wall);
-            let overlap = scene.wall_overlap(slot, wall);
-            if overlap > limit {
+            let mut walls = block.overlapping_walls(&scene);
+            if let Some((overlap, slot, wall)) = walls.find(|wall| wall.0 > limit) {
+                let room = scene.room_of_wall(wall);
                 return Err(BuildError::OutsideCavity {
                     particle: self.particles.number[slot] as usize,
                     position: self.particles.position[slot] - room.motion.position,

@@ -141,6 +141,13 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     velocity,
                 });
             }
+            if room.cavity.is_planar() && (position.z != 0.0 || velocity.z != 0.0) {
+                return Err(StepError::OutOfPlane {
+                    cavity,
+                    position,
+                    velocity,
+                });
+            }
             room.motion = Motion { position, velocity };
         }
         Ok(())
@@ -204,7 +211,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         self.list_candidates();
         let scene = self.world.scene(&self.particles, 0.0);
         for block in &mut self.blocks {
-            block.finish(&scene, &self.scratch.memory)?;
+            block.finish(&scene, &self.scratch.memory);
+        }
+        for block in &mut self.blocks {
+            block.prepare(&scene)?;
         }
         self.scratch.listed = true;
         Ok(())
@@ -269,7 +279,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
     /// Fills the blocks' empty lists from the sorted proposals, and with the walls that are near.
     fn list_candidates(&mut self) {
-        let scratch = &mut self.scratch;
+        let (scratch, world) = (&mut self.scratch, &self.world);
+        let radius = &self.particles.radius;
         for block in &mut self.blocks {
             for slot in block.slots.clone() {
                 let row = scratch.rows[slot] as usize..scratch.rows[slot + 1] as usize;
@@ -281,27 +292,26 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     .copied()
                     .filter(|p| last.replace(*p) != Some(*p))
                 {
-                    if (partner as usize) < block.slots.end {
-                        block.pairs.push(partner);
+                    let reach = radius[slot] + radius[partner as usize] + world.reach;
+                    let list = if (partner as usize) < block.slots.end {
+                        &mut block.pairs
                     } else {
-                        block.border.push(partner);
-                    }
+                        &mut block.border
+                    };
+                    list.push(slot as u32, partner, reach * reach);
                 }
-                block.pairs.end_row();
-                block.border.end_row();
             }
-            for room in &self.world.rooms {
+            for room in &world.rooms {
                 let from = room.slots.start.max(block.slots.start);
                 let to = room.slots.end.min(block.slots.end);
                 for slot in from..to {
-                    let reach = self.particles.radius[slot] + room.margin + self.world.reach;
+                    let reach = radius[slot] + world.reach;
                     let point = scratch.reference[slot];
                     for wall in 0..room.cavity.walls() {
-                        if room.cavity.wall(wall, point).distance < reach {
-                            block.walls.push(room.first_wall + wall);
+                        if room.cavity.wall(wall, point).distance < reach + room.margin {
+                            block.walls.push(slot as u32, room.first_wall + wall, reach);
                         }
                     }
-                    block.walls.end_row();
                 }
             }
         }
@@ -353,6 +363,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
         for (torque, inverse) in torque.iter_mut().zip(&self.particles.inverse_inertia) {
             *torque *= *inverse;
+            sum += *torque;
         }
         self.particles.acceleration = force;
         self.particles.angular_acceleration = torque;
@@ -370,11 +381,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     }
 
     pub(crate) fn check_accelerations(&self) -> Result<(), StepError> {
-        let bad = self
-            .particles
-            .acceleration
-            .iter()
-            .position(|a| !a.is_finite());
+        let particles = &self.particles;
+        let turning = particles.angular_acceleration.iter();
+        let mut both = particles.acceleration.iter().zip(turning);
+        let bad = both.position(|(a, turning)| !(a.is_finite() && turning.is_finite()));
         bad.map_or(Ok(()), |slot| Err(self.not_finite(slot)))
     }
 
@@ -459,11 +469,6 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
         self.accelerate_mount(time);
         Ok(())
-    }
-
-    /// Contacts within the cavities and at walls.
-    pub(crate) fn contacts(&self) -> usize {
-        self.blocks.iter().map(|block| block.contacts).sum()
     }
 
     /// Memories of all contacts, pairs and walls, by slot.

@@ -91,6 +91,22 @@ pub enum BuildError {
         /// The longest step in s.
         limit: f64,
     },
+    /// Neither one detector for each cavity, nor one that can be copied.
+    #[error("there are {cavities} cavities and {detectors} detectors; each cavity needs its own")]
+    DetectorCount {
+        /// How many detectors were given.
+        detectors: usize,
+        /// How many cavities there are.
+        cavities: usize,
+    },
+    /// More walls than a damper can keep account of.
+    #[error("{count} walls are more than the limit of {limit}")]
+    TooManyWalls {
+        /// How many walls all cavities have.
+        count: u64,
+        /// How many are allowed.
+        limit: u64,
+    },
     /// The first evaluation failed.
     #[error(transparent)]
     Start(#[from] StepError),
@@ -111,7 +127,7 @@ pub enum BuildError {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StepError {
-    /// A particle's position, velocity or force is no longer finite.
+    /// A particle's position, velocity, force or torque is no longer finite.
     #[error("particle {particle} is not finite: position {position}, acceleration {acceleration}")]
     NotFinite {
         /// Number of the particle.
@@ -146,6 +162,18 @@ pub enum StepError {
     /// The container's motion is no longer finite.
     #[error("the motion of the container of cavity {cavity} is not finite: {position}, {velocity}")]
     Container {
+        /// Number of the cavity.
+        cavity: usize,
+        /// Position in m.
+        position: DVec3,
+        /// Velocity in m/s.
+        velocity: DVec3,
+    },
+    /// The container of a planar cavity has left the plane.
+    #[error(
+        "the container of cavity {cavity} leaves the plane z = 0 of a planar cavity: {position}, {velocity}"
+    )]
+    OutOfPlane {
         /// Number of the cavity.
         cavity: usize,
         /// Position in m.

@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use glam::{DMat3, DVec3};
 
+use super::candidates::Touch;
 use super::coefficients::Coefficients;
 use super::particles::Particles;
 use crate::cavity::{Cavity, WallPoint};
@@ -57,7 +58,6 @@ impl<C, L: ContactLaw> World<C, L> {
             radius: &particles.radius,
             species: &particles.species,
             number: &particles.number,
-            reach: self.reach,
             elapsed,
             stamp: self.stamp,
         }
@@ -81,8 +81,6 @@ pub(crate) struct Scene<'a, C, L: ContactLaw> {
     pub(crate) radius: &'a [f64],
     pub(crate) species: &'a [u32],
     pub(crate) number: &'a [u32],
-    /// Gap up to which contacts are evaluated, m.
-    pub(crate) reach: f64,
     /// Time since memories were advanced, s.
     pub(crate) elapsed: f64,
     /// Number of the last accepted step.
@@ -105,19 +103,17 @@ pub(crate) struct PairContact {
 }
 
 impl PairContact {
-    /// The contact of two particles, `elapsed` seconds after its memory was advanced. Coincident
-    /// centres have no normal and feel no force.
+    /// The contact of two particles that `touch`, `elapsed` seconds after its memory was advanced.
+    /// Coincident centres have no normal and feel no force.
     #[inline(always)]
-    pub(crate) fn new(first: &Grain, second: &Grain, elapsed: f64) -> Self {
-        let apart = first.position - second.position;
-        let distance = apart.length();
-        let normal = apart * (1.0 / distance.max(f64::MIN_POSITIVE));
+    pub(crate) fn new(first: &Grain, second: &Grain, touch: &Touch, elapsed: f64) -> Self {
+        let normal = (first.position - second.position) * touch.inverse;
         let turning = first.spin * first.radius + second.spin * second.radius;
         let velocity = first.velocity - second.velocity - turning.cross(normal);
         Self {
             contact: Contact {
                 normal,
-                overlap: first.radius + second.radius - distance,
+                overlap: first.radius + second.radius - touch.distance,
                 velocity,
                 velocity_ahead: velocity,
                 spins: [first.spin, second.spin],
@@ -174,22 +170,12 @@ impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
         }
     }
 
-    /// The contact of two particles.
-    pub(crate) fn pair(&self, first: usize, second: usize) -> PairContact {
-        PairContact::new(&self.grain(first), &self.grain(second), self.elapsed)
-    }
-
     /// How a wall stands to a point of the fixed frame.
     #[inline(always)]
     pub(crate) fn wall_point(&self, wall: u32, position: DVec3) -> WallPoint {
         let room = self.room_of_wall(wall);
         room.cavity
             .wall(wall - room.first_wall, position - room.motion.position)
-    }
-
-    /// The overlap of the particle in a slot with a wall.
-    pub(crate) fn wall_overlap(&self, slot: usize, wall: u32) -> f64 {
-        self.radius[slot] - self.wall_point(wall, self.position[slot]).distance
     }
 
     /// Number of the cavity that has a wall.

@@ -8,7 +8,7 @@ mod stencil;
 
 use lattice::{Lattice, Site};
 pub use stencil::Neighbourhood;
-use stencil::Stencil;
+use stencil::{Board, Stencil};
 
 /// Marks the end of a chain of particles in one cell.
 const END: u32 = u32::MAX;
@@ -16,18 +16,18 @@ const END: u32 = u32::MAX;
 /// The paper's cellular automaton: every centre occupies a cell, and contacts are sought in the
 /// cells around it.
 ///
-/// The cells divide the cavity's bounding box. A centre at x, counted from the lower corner of a
-/// box W wide with N_x cells along x, is in cell (Eq. 9)
+/// The cells divide the cavity's bounding box. Along an axis with n cells over the length w, a
+/// centre at x from the lower corner is in the cell with the index (Eq. 9)
 ///
-/// i_x = max{n in Z : n < N_x x / W + 0.5}
+/// i = max{k in Z : k < n x / w + 0.5}
 ///
-/// and likewise along y and z, so there are N_x + 1 of them, from 0 to N_x. A centre outside the
-/// box is in the nearest cell at its border.
+/// so indices run from 0 to n. A centre outside the box is in the nearest cell at its border.
 ///
 /// The default [`Neighbourhood::Exact`] finds every pair, whatever the resolution. The cost per
 /// detection grows with the particles and the rows of cells in the neighbourhood, not with the
-/// cells of the grid: each row keeps one bit per cell, and empty cells are never looked at.
-/// Cells about as large as the smallest radius are a good choice.
+/// cells of the grid: a bit per cell tells whether it is occupied, and empty cells cost nothing.
+/// Cells about as long as a radius are a good choice. Particles much smaller than the largest
+/// crowd its neighbourhood; [`LinkedCells`](crate::LinkedCells) suits them better.
 ///
 /// T. Komatsuzaki, Y. Iwata, Int. J. Mech. Mater. Des. 13 (2017) 407-417, Sec. 4.1-4.2,
 /// doi 10.1007/s10999-016-9344-3.
@@ -57,8 +57,7 @@ pub struct CellGrid {
 }
 
 impl CellGrid {
-    /// The most cells, counted as (N_x + 1)(N_y + 1)(N_z + 1), that a grid can have. They take
-    /// 4 bytes each.
+    /// The most cells that a grid can have; n + 1 count along an axis divided by n.
     pub const MAX_CELLS: usize = 1 << 24;
 
     /// A grid of `across` cells along x, the width, and `up` cells along y, the height. It does not
@@ -136,7 +135,7 @@ impl CellGrid {
             missed: 0,
             lattice: Lattice::single_cell(),
             stencil: Stencil::default(),
-            occupied: vec![0],
+            occupied: vec![0; 2],
             first: vec![END],
             next: Vec::new(),
             sites: Vec::new(),
@@ -145,23 +144,23 @@ impl CellGrid {
 
     fn place(&mut self, bed: &Bed<'_>) {
         self.next.resize(bed.len(), END);
-        self.sites.resize(bed.len(), Site::default());
+        self.sites.clear();
         for a in 0..bed.len() {
             let site = self.lattice.site(bed.position(a));
-            let row = self.lattice.row(site.y, site.z);
-            let word = &mut self.occupied[self.lattice.word(row, site.x)];
-            let first = &mut self.first[self.lattice.cell(row, site.x)];
-            let bit = 1 << (site.x % 64);
-            self.next[a] = if *word & bit == 0 { END } else { *first };
-            *word |= bit;
+            let (word, bit) = self.lattice.bit(site, 0);
+            let word = &mut self.occupied[word];
+            let first = &mut self.first[self.lattice.cell(site.row, site.x)];
+            self.next[a] = if *word >> bit & 1 == 0 { END } else { *first };
+            *word |= 1 << bit;
             *first = a as u32;
-            self.sites[a] = site;
+            self.sites.push(site);
         }
     }
 
     fn scan(&mut self, bed: &Bed<'_>, pairs: &mut Pairs) {
+        let sees_own_cell = self.neighbourhood == Neighbourhood::Exact;
+        let mut missed = 0;
         for (a, &site) in self.sites.iter().enumerate() {
-            let mut missed = 0;
             let mut meet = |mut b: u32, seen: bool| {
                 while b != END {
                     if bed.are_near(a, b as usize) {
@@ -174,35 +173,36 @@ impl CellGrid {
                     b = self.next[b as usize];
                 }
             };
-            meet(self.next[a], self.stencil.sees_own_cell());
-            for strip in self.stencil.strips() {
-                let y = site.y.wrapping_add_signed(strip.up);
-                let z = site.z + strip.back;
-                if !self.lattice.contains_row(y, z) {
-                    continue;
-                }
-                let row = self.lattice.row(y, z);
-                let (low, high) = strip.span(site.x, self.lattice.last_x());
-                for word in low / 64..(high + 64) / 64 {
-                    let mut bits = self.occupied[self.lattice.word(row, 64 * word)]
-                        & (u64::MAX << low.saturating_sub(64 * word).min(63))
-                        & (u64::MAX >> (64 * word + 63).saturating_sub(high));
-                    while bits != 0 {
-                        let x = 64 * word + bits.trailing_zeros();
-                        bits &= bits - 1;
-                        let first = self.first[self.lattice.cell(row, x)];
-                        meet(first, strip.sees(x.abs_diff(site.x)));
-                    }
+            meet(self.next[a], sees_own_cell);
+            let own = self.lattice.cell(site.row, site.x);
+            for board in self.stencil.boards() {
+                let mut bits = self.lay(board, site);
+                while bits != 0 {
+                    let bit = bits.trailing_zeros();
+                    bits &= bits - 1;
+                    let cell = own.wrapping_add_signed(board.offsets[bit as usize] as isize);
+                    meet(self.first[cell], board.seen >> bit & 1 == 1);
                 }
             }
-            self.missed += missed;
         }
+        self.missed += missed;
+    }
+
+    /// The bits of the occupied cells of a board around a site.
+    #[inline]
+    fn lay(&self, board: &Board, site: Site) -> u64 {
+        board.windows.iter().fold(0, |bits, window| {
+            let row = site.row + window.rows;
+            let (word, bit) = self.lattice.bit(Site { row, ..site }, window.right);
+            let low = self.occupied[word] >> bit;
+            let high = self.occupied[word + 1] << 1 << (63 - bit);
+            bits | ((low | high) & window.mask) << window.shift
+        })
     }
 
     fn clear(&mut self) {
-        for site in &self.sites {
-            let row = self.lattice.row(site.y, site.z);
-            self.occupied[self.lattice.word(row, site.x)] = 0;
+        for &site in &self.sites {
+            self.occupied[self.lattice.bit(site, 0).0] = 0;
         }
     }
 }
@@ -211,9 +211,8 @@ impl Detector for CellGrid {
     fn prepare(&mut self, bed: &Bed<'_>) -> Result<(), DetectorError> {
         self.lattice = Lattice::new(self.cells, bed);
         self.stencil = Stencil::new(self.neighbourhood, &self.lattice, bed);
-        self.occupied.clear();
-        self.occupied.resize(self.lattice.words(), 0);
-        self.first.resize(self.lattice.cells(), END);
+        self.occupied = vec![0; self.lattice.words()];
+        self.first = vec![0; self.lattice.cells()];
         self.next.reserve(bed.len());
         self.sites.reserve(bed.len());
         Ok(())

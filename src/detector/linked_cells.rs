@@ -42,6 +42,9 @@ pub struct LinkedCells {
     numbers: Vec<u32>,
 }
 
+/// Partners tested at a time.
+const BATCH: usize = 16;
+
 #[derive(Debug, Clone, Copy, Default)]
 struct Sphere {
     centre: DVec3,
@@ -110,17 +113,38 @@ impl LinkedCells {
         self.starts[cells.start] as usize..self.starts[cells.end] as usize
     }
 
-    /// Proposes those partners of the particle at `place` that are among the places `others`.
+    /// Proposes those partners of the particle at `place` that are in the blocks of places `others`.
     #[inline]
-    fn meet(&self, place: usize, others: Range<usize>, margin: f64, pairs: &mut Pairs) {
+    fn meet(
+        &self,
+        place: usize,
+        others: impl IntoIterator<Item = Range<usize>>,
+        margin: f64,
+        pairs: &mut Pairs,
+    ) {
         let Sphere { centre, radius } = self.spheres[place];
         let number = self.numbers[place] as usize;
-        let numbers = &self.numbers[others.clone()];
-        for (other, &partner) in self.spheres[others].iter().zip(numbers) {
-            let reach = radius + other.radius + margin;
-            if centre.distance_squared(other.centre) < reach * reach {
-                pairs.push(number, partner as usize);
+        // Whether a partner is near is anyone's guess; noting it without a branch is faster.
+        let mut near = [0; 4 * BATCH];
+        let mut count = 0;
+        for block in others {
+            let numbers = self.numbers[block.clone()].chunks(BATCH);
+            for (others, numbers) in self.spheres[block].chunks(BATCH).zip(numbers) {
+                if count > 3 * BATCH {
+                    for &partner in &near[..count] {
+                        pairs.push(number, partner as usize);
+                    }
+                    count = 0;
+                }
+                for (other, &partner) in others.iter().zip(numbers) {
+                    let reach = radius + other.radius + margin;
+                    near[count % (4 * BATCH)] = partner;
+                    count += usize::from(centre.distance_squared(other.centre) < reach * reach);
+                }
             }
+        }
+        for &partner in &near[..count] {
+            pairs.push(number, partner as usize);
         }
     }
 
@@ -148,10 +172,13 @@ impl LinkedCells {
                     let end = self.starts[row + high] as usize;
                     let blocks = others.map(|other| self.block(other + low..other + high));
                     for place in own {
-                        self.meet(place, place + 1..end, margin, pairs);
-                        for block in &blocks[..count] {
-                            self.meet(place, block.clone(), margin, pairs);
-                        }
+                        let own = std::iter::once(place + 1..end);
+                        self.meet(
+                            place,
+                            own.chain(blocks[..count].iter().cloned()),
+                            margin,
+                            pairs,
+                        );
                     }
                 }
             }
@@ -170,7 +197,7 @@ impl LinkedCells {
                 for y in low..=high {
                     let row = lattice.row(y, z);
                     let block = self.block(row + left..row + right + 1);
-                    self.meet(place, block, bed.margin(), pairs);
+                    self.meet(place, [block], bed.margin(), pairs);
                 }
             }
         }
@@ -190,6 +217,9 @@ impl Detector for LinkedCells {
     }
 
     fn detect(&mut self, bed: &Bed<'_>, pairs: &mut Pairs) {
+        if self.levels.is_empty() {
+            self.levels = Level::split(bed);
+        }
         self.arrange(bed);
         self.sort(bed);
         for (index, level) in self.levels.iter().enumerate() {

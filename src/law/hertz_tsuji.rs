@@ -1,7 +1,7 @@
 use super::friction::{Friction, Grip};
 use super::normal::{NormalCoefficients, NormalForce, strict_law};
 use super::{ContactLaw, LawError};
-use crate::contact::{Bodies, Contact, ContactForce};
+use crate::contact::{Bodies, Contact, ContactForce, Stored};
 use crate::material::Materials;
 
 /// The strict law of the paper: Hertz's spring with damping along the normal, sliding friction
@@ -101,6 +101,10 @@ impl ContactLaw for HertzTsuji {
             tangential: self.friction.force(&coefficients.grip, contact, pressing),
             couple: coefficients.grip.rolling.couple(contact, pressing),
         }
+    }
+
+    fn stored(&self, coefficients: &Coefficients, contact: &Contact, (): &()) -> Stored {
+        NormalForce::stored(&coefficients.normal, contact, 0.0)
     }
 
     fn time_step_limit(&self, coefficients: &Coefficients) -> f64 {

@@ -3,7 +3,7 @@
 use super::LawError;
 use super::damping::{Damping, Ending};
 use super::hertz::ElasticImpact;
-use crate::contact::{Bodies, Contact};
+use crate::contact::{Bodies, Contact, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::{Interaction, Material, MaterialId, Materials};
 
@@ -94,7 +94,8 @@ impl NormalForce {
     }
 
     fn material(&self, id: MaterialId) -> Result<&Material, LawError> {
-        self.materials.get(id).ok_or(LawError::UnknownMaterial(id))
+        let material = self.materials.get(id);
+        Ok(material.ok_or(LawError::UnknownMaterial(id))?.checked()?)
     }
 
     pub(super) fn materials(&self, bodies: &Bodies) -> Result<[&Material; 2], LawError> {
@@ -108,7 +109,7 @@ impl NormalForce {
         self.materials(bodies)?;
         let (a, b) = (bodies.first.material, bodies.second.material);
         let interaction = self.materials.interaction(a, b);
-        interaction.ok_or(LawError::UnknownMaterial(b))
+        Ok(interaction.ok_or(LawError::UnknownMaterial(b))?.checked()?)
     }
 
     /// The elastic impact of two bodies at `speed` (m/s).
@@ -171,6 +172,16 @@ impl NormalForce {
                 Ending::PullingAllowed => force,
             },
         }
+    }
+
+    /// Hertz's force and energy, 2/5 k d^(5/2); `tangential` is the energy (J) of the stretch.
+    pub(super) fn stored(
+        coefficients: &NormalCoefficients,
+        contact: &Contact,
+        tangential: f64,
+    ) -> Stored {
+        let force = coefficients.stiffness * contact.overlap * contact.overlap.sqrt();
+        Stored::new(force, 0.4 * force * contact.overlap, tangential)
     }
 }
 

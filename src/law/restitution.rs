@@ -120,7 +120,8 @@ impl ContactLaw for RestitutionImpulse {
         let interaction = self
             .materials
             .interaction(first.material, second.material)
-            .ok_or(LawError::UnknownMaterial(second.material))?;
+            .ok_or(LawError::UnknownMaterial(second.material))?
+            .checked()?;
         let slides = f64::from(self.friction);
         Ok(RestitutionCoefficients {
             restitution: interaction.restitution,

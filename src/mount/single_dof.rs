@@ -1,6 +1,6 @@
 use glam::{DMat3, DVec3};
 
-use super::{Motion, Mount};
+use super::{Motion, Mount, MountEnergy};
 use crate::error::{Bound, ValueError};
 use crate::excitation::Excitation;
 
@@ -146,6 +146,15 @@ impl<E: Excitation> Mount for SingleDof<E> {
     #[inline]
     fn strike(&self, _cavity: usize, impulse: DVec3, v: &mut [f64]) {
         v[0] += impulse.dot(self.axis) / self.mass;
+    }
+
+    fn energy(&self, time: f64, x: &[f64], v: &[f64]) -> MountEnergy {
+        let driving = self.excitation.force(time, self.damping, self.stiffness);
+        MountEnergy::new(
+            0.5 * self.mass * v[0] * v[0],
+            0.5 * self.stiffness * x[0] * x[0],
+        )
+        .with_powers(driving * v[0], self.damping * v[0] * v[0])
     }
 
     fn mobility(&self, _cavity: usize) -> DMat3 {

@@ -2,24 +2,27 @@
 
 use glam::DVec3;
 
+use super::stencil::Reach;
 use crate::detector::Bed;
 
-/// The indices of a cell.
+/// A cell as a row and a place in it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Site {
+    pub(super) row: u32,
     pub(super) x: u32,
-    pub(super) y: u32,
-    pub(super) z: u32,
 }
 
-/// The cells of a bounding box. A row is the cells of equal y and z.
+/// The cells of a bounding box. A row is the cells of equal y and z. Rows that stay empty follow
+/// each layer, layers that stay empty follow the last one, and bits that stay clear surround each
+/// row, so that no search runs over the border.
 #[derive(Debug, Clone)]
 pub(super) struct Lattice {
     lower: DVec3,
     /// Cells per metre along each axis.
     density: DVec3,
     /// The highest index along each axis.
-    last: Site,
+    last: [u32; 3],
+    reach: Reach,
     words_per_row: usize,
 }
 
@@ -28,7 +31,8 @@ impl Lattice {
         Self {
             lower: DVec3::ZERO,
             density: DVec3::ZERO,
-            last: Site::default(),
+            last: [0; 3],
+            reach: Reach::default(),
             words_per_row: 1,
         }
     }
@@ -49,25 +53,25 @@ impl Lattice {
         let (x, last_x) = axis(cells[0], extent.x);
         let (y, last_y) = axis(cells[1], extent.y);
         let (z, last_z) = axis(if bed.is_planar() { 0 } else { cells[2] }, extent.z);
+        let density = DVec3::new(x, y, z);
+        let last = [last_x, last_y, last_z];
+        let reach = Reach::new(bed, density.recip().to_array(), last);
         Self {
             lower,
-            density: DVec3::new(x, y, z),
-            last: Site {
-                x: last_x,
-                y: last_y,
-                z: last_z,
-            },
-            words_per_row: last_x as usize / 64 + 1,
+            density,
+            last,
+            reach,
+            words_per_row: (last_x + 2 * reach.cells[0]) as usize / 64 + 1,
         }
     }
 
     /// Edges of a cell in m; infinite along an axis with a single cell.
-    pub(super) fn edges(&self) -> DVec3 {
-        self.density.recip()
+    pub(super) fn edges(&self) -> [f64; 3] {
+        self.density.recip().to_array()
     }
 
-    pub(super) const fn last(&self) -> Site {
-        self.last
+    pub(super) const fn reach(&self) -> Reach {
+        self.reach
     }
 
     /// The cell of a centre in the container's frame. Along each axis the index never falls as the
@@ -75,45 +79,43 @@ impl Lattice {
     #[inline]
     pub(super) fn site(&self, position: DVec3) -> Site {
         let at = (position - self.lower) * self.density + 0.5;
+        let [last_x, last_y, last_z] = self.last;
+        let layer = below(at.z, last_z) * self.rows_per_layer() as u32;
         Site {
-            x: below(at.x, self.last.x),
-            y: below(at.y, self.last.y),
-            z: below(at.z, self.last.z),
+            row: layer + below(at.y, last_y),
+            x: below(at.x, last_x),
         }
     }
 
+    /// The word and the bit of a cell that is so many to the right, which may be in the margin.
     #[inline]
-    pub(super) const fn last_x(&self) -> u32 {
-        self.last.x
+    pub(super) const fn bit(&self, site: Site, right: i32) -> (usize, u32) {
+        let bit = (site.x + self.reach.cells[0]).wrapping_add_signed(right);
+        let word = site.row as usize * self.words_per_row + bit as usize / 64;
+        (word, bit % 64)
     }
 
+    /// Where a cell's particles are stored.
     #[inline]
-    pub(super) const fn contains_row(&self, y: u32, z: u32) -> bool {
-        y <= self.last.y && z <= self.last.z
+    pub(super) const fn cell(&self, row: u32, x: u32) -> usize {
+        row as usize * (self.last[0] as usize + 1) + x as usize
     }
 
-    #[inline]
-    pub(super) const fn row(&self, y: u32, z: u32) -> usize {
-        z as usize * (self.last.y as usize + 1) + y as usize
+    pub(super) const fn rows_per_layer(&self) -> usize {
+        (self.last[1] + 1 + self.reach.cells[1]) as usize
     }
 
-    /// Where the occupancy bit of a cell is.
-    #[inline]
-    pub(super) const fn word(&self, row: usize, x: u32) -> usize {
-        row * self.words_per_row + x as usize / 64
+    fn rows(&self) -> usize {
+        self.rows_per_layer() * (self.last[2] + 1 + self.reach.cells[2]) as usize
     }
 
-    #[inline]
-    pub(super) const fn cell(&self, row: usize, x: u32) -> usize {
-        row * (self.last.x as usize + 1) + x as usize
+    /// Words for the bits, with one more, so that each has a next.
+    pub(super) fn words(&self) -> usize {
+        self.rows() * self.words_per_row + 1
     }
 
-    pub(super) const fn words(&self) -> usize {
-        (self.row(self.last.y, self.last.z) + 1) * self.words_per_row
-    }
-
-    pub(super) const fn cells(&self) -> usize {
-        self.cell(self.row(self.last.y, self.last.z), self.last.x) + 1
+    pub(super) fn cells(&self) -> usize {
+        self.cell(self.rows() as u32, 0)
     }
 }
 
@@ -131,13 +133,13 @@ mod tests {
 
     fn paper() -> Lattice {
         let bounds = [DVec3::ZERO, DVec3::new(0.060, 0.096, 0.0)];
-        Lattice::new([20, 32, 0], &Bed::new(&[], &[], bounds).in_plane(true))
+        let bed = Bed::new(&[DVec3::ZERO], &[0.003], bounds).in_plane(true);
+        Lattice::new([20, 32, 0], &bed)
     }
 
     fn site(x: f64, y: f64) -> [u32; 2] {
         let site = paper().site(DVec3::new(x, y, 0.0));
-        assert_eq!(site.z, 0);
-        [site.x, site.y]
+        [site.x, site.row]
     }
 
     #[test]
@@ -162,14 +164,14 @@ mod tests {
     }
 
     #[test]
-    fn rows_and_cells_fill_their_memory_exactly() {
+    fn the_margins_take_the_reach() {
         let lattice = paper();
-        assert_eq!(lattice.cells(), 21 * 33);
-        assert_eq!(lattice.words(), 33);
-        let bounds = [DVec3::ZERO, DVec3::ONE];
-        let fine = Lattice::new([128, 3, 2], &Bed::new(&[], &[], bounds));
-        assert_eq!(fine.cells(), 129 * 4 * 3);
-        assert_eq!(fine.words(), 3 * 4 * 3);
+        assert_eq!(lattice.reach().cells, [3, 3, 0]);
+        assert_eq!(lattice.words(), 33 + 3 + 1);
+        assert_eq!(lattice.cells(), 21 * 36);
+        let corner = Site { row: 0, x: 0 };
+        assert_eq!(lattice.bit(corner, -3), (0, 0));
+        assert_eq!(lattice.bit(corner, 23), (0, 26));
     }
 
     #[test]
@@ -177,8 +179,8 @@ mod tests {
         for depth in [0.0, f64::INFINITY, f64::NAN, 1e-320] {
             let bounds = [DVec3::ZERO, DVec3::new(1.0, 1.0, depth)];
             let lattice = Lattice::new([4, 4, 4], &Bed::new(&[], &[], bounds));
-            assert_eq!(lattice.last().z, 0, "{depth}");
-            assert_eq!(lattice.site(DVec3::splat(0.5)).z, 0);
+            assert_eq!(lattice.last[2], 0, "{depth}");
+            assert_eq!(lattice.site(DVec3::splat(0.5)).row, 2);
         }
     }
 }

@@ -25,110 +25,143 @@ pub enum Neighbourhood {
     Paper,
 }
 
-/// Part of a row of cells, relative to the centre's. The strips above and behind are whole, the
-/// one through the centre begins right of it: so each pair of cells is searched once.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Strip {
-    /// Rows up (y).
-    pub(super) up: i32,
-    /// Layers back (z).
-    pub(super) back: u32,
-    /// Cells to each side that can hold a centre within reach.
-    half_width: u32,
-    /// Cells to each side that the neighbourhood includes.
-    ring: u32,
-    /// The number of cells, from the middle to one side, that the neighbourhood leaves out.
-    hole: u32,
-}
-
-impl Strip {
-    /// The first and the last cell to search around `x` in a row that ends with `last`. The first
-    /// one exceeds the last if there is none.
-    #[inline]
-    pub(super) fn span(&self, x: u32, last: u32) -> (u32, u32) {
-        let low = if self.up == 0 && self.back == 0 {
-            x + 1
-        } else {
-            x.saturating_sub(self.half_width)
-        };
-        (low, x.saturating_add(self.half_width).min(last))
-    }
-
-    /// Whether the neighbourhood includes the cells `across` from the middle.
-    #[inline]
-    pub(super) const fn sees(&self, across: u32) -> bool {
-        self.hole <= across && across <= self.ring
-    }
-}
-
-#[derive(Debug, Clone)]
-pub(super) struct Stencil {
-    strips: Vec<Strip>,
-    sees_own_cell: bool,
-}
-
-impl Default for Stencil {
-    fn default() -> Self {
-        Self {
-            strips: Vec::new(),
-            sees_own_cell: true,
+impl Neighbourhood {
+    /// Whether cells that are so many apart along x, y and z are searched, if a diameter is
+    /// `thickness` cells long.
+    fn includes(self, apart: [u32; 3], thickness: [f64; 3]) -> bool {
+        match self {
+            Self::Exact => true,
+            Self::Paper => {
+                let within = |(apart, thickness): (u32, f64)| {
+                    f64::from(apart) <= (thickness * (1.0 - 1e-9)).ceil()
+                };
+                apart.iter().sum::<u32>() > 1 && apart.into_iter().zip(thickness).all(within)
+            }
         }
     }
+}
+
+/// How far the exact neighbourhood extends to each side, in cells along x, y and z.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Reach {
+    length: f64,
+    pub(super) cells: [u32; 3],
+}
+
+impl Reach {
+    /// Of cells with these edges, of which the last along each axis has the index `last`.
+    pub(super) fn new(bed: &Bed<'_>, edges: [f64; 3], last: [u32; 3]) -> Self {
+        let contact = 2.0 * bed.largest_radius() + bed.margin();
+        let [lower, upper] = bed.bounds();
+        // Far above what rounding can move a centre across the border of a cell.
+        let rounding = 1e-9 * contact + 1e-14 * lower.abs().max(upper.abs()).max_element();
+        let length = contact + rounding;
+        let cells = |axis: usize| cells_within(length, edges[axis], last[axis]);
+        Self {
+            length,
+            cells: [cells(0), cells(1), cells(2)],
+        }
+    }
+}
+
+/// Consecutive cells of a row, relative to a centre's cell.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Window {
+    /// Rows on.
+    pub(super) rows: u32,
+    /// The first cell, to the right.
+    pub(super) right: i32,
+    /// One bit for each cell, from the lowest up.
+    pub(super) mask: u64,
+    /// Where the first cell's bit goes in the board.
+    pub(super) shift: u32,
+}
+
+/// Windows that together have at most 64 cells, to be searched as one word.
+#[derive(Debug, Clone)]
+pub(super) struct Board {
+    pub(super) windows: Vec<Window>,
+    /// Per bit, how many cells on from the centre's that cell is stored.
+    pub(super) offsets: [i32; 64],
+    /// Bits of the cells that the neighbourhood includes.
+    pub(super) seen: u64,
+    used: u32,
+}
+
+impl Board {
+    const EMPTY: Self = Self {
+        windows: Vec::new(),
+        offsets: [0; 64],
+        seen: 0,
+        used: 0,
+    };
+}
+
+/// Half of the cells of the exact neighbourhood, so that each pair of cells is searched once. They
+/// are marked with what the neighbourhood includes; what that has beyond cannot hold a contact.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Stencil {
+    boards: Vec<Board>,
 }
 
 impl Stencil {
-    /// The strips of the exact neighbourhood, marked with what `neighbourhood` includes of them:
-    /// what it has beyond those cannot hold a contact.
     pub(super) fn new(neighbourhood: Neighbourhood, lattice: &Lattice, bed: &Bed<'_>) -> Self {
-        let diameter = 2.0 * bed.largest_radius() + bed.margin();
-        let [lower, upper] = bed.bounds();
-        // Far above what rounding can move a centre across the border of a cell.
-        let rounding = 1e-9 * diameter + 1e-14 * lower.abs().max(upper.abs()).max_element();
-        let reach = diameter + rounding;
         let edges = lattice.edges();
-        let last = lattice.last();
-        let ring = |edge: f64| match neighbourhood {
-            Neighbourhood::Exact => u32::MAX,
-            Neighbourhood::Paper => (diameter / edge * (1.0 - 1e-9)).ceil() as u32,
-        };
-        let hole = |away: u32| match neighbourhood {
-            Neighbourhood::Exact => 0,
-            Neighbourhood::Paper => 2_u32.saturating_sub(away),
-        };
+        let reach = lattice.reach();
+        let contact = 2.0 * bed.largest_radius() + bed.margin();
+        let thickness = edges.map(|edge| contact / edge);
+        let [_, most_up, most_back] = reach.cells;
 
-        let mut strips = Vec::new();
-        for back in 0..=cells_within(reach, edges.z, last.z) {
-            let up_to = cells_within(reach, edges.y, last.y) as i32;
-            for up in if back == 0 { 0 } else { -up_to }..=up_to {
+        let mut stencil = Self::default();
+        for back in 0..=most_back {
+            let lowest = if back == 0 { 0 } else { -(most_up as i32) };
+            for up in lowest..=most_up as i32 {
                 let away = up.unsigned_abs();
-                let left = reach.powi(2) - gap(back, edges.z).powi(2) - gap(away, edges.y).powi(2);
+                let gaps = gap(back, edges[2]).powi(2) + gap(away, edges[1]).powi(2);
+                let left = reach.length.powi(2) - gaps;
                 if left <= 0.0 {
                     continue;
                 }
-                let beyond = away > ring(edges.y) || back > ring(edges.z);
-                strips.push(Strip {
-                    up,
-                    back,
-                    half_width: cells_within(left.sqrt(), edges.x, last.x),
-                    ring: ring(edges.x),
-                    hole: if beyond { u32::MAX } else { hole(away + back) },
-                });
+                let side = cells_within(left.sqrt(), edges[0], reach.cells[0]) as i32;
+                let rows = (back as usize * lattice.rows_per_layer()) as i32 + up;
+                let first = if rows == 0 { 1 } else { -side };
+                for right in first..=side {
+                    let apart = [right.unsigned_abs(), away, back];
+                    let seen = neighbourhood.includes(apart, thickness);
+                    stencil.push(rows as u32, right, seen, right == first, lattice);
+                }
             }
         }
-        Self {
-            strips,
-            sees_own_cell: neighbourhood == Neighbourhood::Exact,
+        stencil
+    }
+
+    fn push(&mut self, rows: u32, right: i32, seen: bool, new_row: bool, lattice: &Lattice) {
+        let full = self.boards.last().is_none_or(|board| board.used == 64);
+        if full {
+            self.boards.push(Board::EMPTY);
         }
+        let Some(board) = self.boards.last_mut() else {
+            return;
+        };
+        if full || new_row {
+            board.windows.push(Window {
+                rows,
+                right,
+                mask: 0,
+                shift: board.used,
+            });
+        }
+        if let Some(window) = board.windows.last_mut() {
+            window.mask = window.mask << 1 | 1;
+        }
+        board.offsets[board.used as usize] = lattice.cell(rows, 0) as i32 + right;
+        board.seen |= u64::from(seen) << board.used;
+        board.used += 1;
     }
 
     #[inline]
-    pub(super) fn strips(&self) -> &[Strip] {
-        &self.strips
-    }
-
-    #[inline]
-    pub(super) const fn sees_own_cell(&self) -> bool {
-        self.sees_own_cell
+    pub(super) fn boards(&self) -> &[Board] {
+        &self.boards
     }
 }
 
@@ -141,9 +174,9 @@ fn gap(cells: u32, edge: f64) -> f64 {
     }
 }
 
-/// The largest number of cells whose [`gap`] is less than `distance`, and at most `last`.
-fn cells_within(distance: f64, edge: f64, last: u32) -> u32 {
-    ((distance / edge).ceil() as u32).min(last)
+/// The largest number of cells whose [`gap`] is less than `distance`, and at most `most`.
+fn cells_within(distance: f64, edge: f64, most: u32) -> u32 {
+    ((distance / edge).ceil() as u32).min(most)
 }
 
 #[cfg(test)]
@@ -152,7 +185,7 @@ mod tests {
 
     use super::*;
 
-    /// Cells in the whole neighbourhood: (searched, of these seen).
+    /// Cells in the whole neighbourhood but the own one: searched, and of these seen.
     fn size(cells: [usize; 3], radius: f64, neighbourhood: Neighbourhood) -> [u32; 2] {
         let bounds = [DVec3::ZERO, DVec3::new(0.060, 0.096, 0.060)];
         let centre = [DVec3::ZERO];
@@ -160,13 +193,12 @@ mod tests {
         let bed = Bed::new(&centre, &radii, bounds).in_plane(cells[2] == 0);
         let lattice = Lattice::new(cells, &bed);
         let stencil = Stencil::new(neighbourhood, &lattice, &bed);
-        let mut size = [1, u32::from(stencil.sees_own_cell())];
-        for strip in stencil.strips() {
-            let (low, high) = strip.span(100, 1000);
-            for x in low..=high {
-                size[0] += 2;
-                size[1] += 2 * u32::from(strip.sees(x.abs_diff(100)));
-            }
+        let mut size = [0; 2];
+        for board in stencil.boards() {
+            let searched: u32 = board.windows.iter().map(|w| w.mask.count_ones()).sum();
+            assert_eq!(searched, board.used);
+            size[0] += 2 * searched;
+            size[1] += 2 * board.seen.count_ones();
         }
         size
     }
@@ -174,26 +206,31 @@ mod tests {
     #[test]
     fn the_papers_ring_has_twenty_cells() {
         // Cells whose gap is a diameter are searched as well, since coordinates round: 12 more.
-        assert_eq!(size([20, 32, 0], 0.003, Neighbourhood::Paper), [37, 20]);
-        assert_eq!(size([20, 32, 0], 0.003, Neighbourhood::Exact), [37, 37]);
+        assert_eq!(size([20, 32, 0], 0.003, Neighbourhood::Paper), [36, 20]);
+        assert_eq!(size([20, 32, 0], 0.003, Neighbourhood::Exact), [36, 36]);
     }
 
     #[test]
     fn the_papers_ring_is_one_diameter_thick_on_finer_grids() {
         // 9 by 9, without five and without the corners that are out of reach.
-        assert_eq!(size([40, 64, 0], 0.00299, Neighbourhood::Exact)[1], 77);
-        assert_eq!(size([40, 64, 0], 0.00299, Neighbourhood::Paper)[1], 72);
+        assert_eq!(size([40, 64, 0], 0.00299, Neighbourhood::Exact), [76, 76]);
+        assert_eq!(size([40, 64, 0], 0.00299, Neighbourhood::Paper), [76, 72]);
     }
 
     #[test]
     fn in_space_the_papers_ring_leaves_out_six_faces_and_the_centre() {
-        let [searched, seen] = size([20, 32, 20], 0.00299, Neighbourhood::Paper);
-        assert_eq!(searched, 125);
-        assert_eq!(seen, 125 - 7);
+        let size = size([20, 32, 20], 0.00299, Neighbourhood::Paper);
+        assert_eq!(size, [124, 118]);
     }
 
     #[test]
     fn cells_larger_than_the_reach_leave_the_nearest_ring() {
-        assert_eq!(size([2, 2, 0], 0.003, Neighbourhood::Exact), [9, 9]);
+        assert_eq!(size([2, 2, 0], 0.003, Neighbourhood::Exact), [8, 8]);
+    }
+
+    #[test]
+    fn wide_rows_are_split_over_boards() {
+        let size = size([400, 1, 0], 0.003, Neighbourhood::Exact);
+        assert_eq!(size[0], 2 * (41 + 83));
     }
 }

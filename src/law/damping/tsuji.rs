@@ -32,10 +32,12 @@ pub(super) fn restitution(alpha: f64, ending: Ending) -> f64 {
 
 /// The damping number with a restitution coefficient of 0.001 to 1.
 pub(super) fn number(target: f64, ending: Ending) -> f64 {
+    if target >= 1.0 {
+        return 0.0; // Not the -0 of the forms below: its reciprocal bounds the time step.
+    }
     let log = target.ln();
     let zeta = match ending {
         Ending::PullingAllowed => -log / (PI * PI + log * log).sqrt(),
-        Ending::NeverPulling if log == 0.0 => 0.0,
         Ending::NeverPulling => root(|zeta| log_never_pulling(zeta) - log),
     };
     zeta * 5.0_f64.sqrt()
@@ -79,5 +81,12 @@ mod tests {
             .collect();
         assert!(ladder.is_sorted_by(|a, b| a > b) && ladder[300] > 0.0);
         assert!(restitution(3.0, Ending::PullingAllowed) <= 0.0);
+    }
+
+    #[test]
+    fn no_damping_is_a_positive_zero() {
+        for ending in [Ending::NeverPulling, Ending::PullingAllowed] {
+            assert_eq!(number(1.0, ending).to_bits(), 0.0_f64.to_bits());
+        }
     }
 }

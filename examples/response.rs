@@ -1,0 +1,319 @@
+//! The paper's Fig. 11: response of the oscillator with 0, 20, 40 and 60 particles, the strict law
+//! (solid) against the approximate one (dashed).
+//!
+//! `cargo run --release --example response` leaves `target/response/response.csv` and `.svg`;
+//! `-- --help` lists the options, `-- --quick` takes a few points. The picture of the README:
+//! `cp target/response/response.svg examples/pictures/`.
+
+#[path = "support/chart.rs"]
+mod chart;
+#[path = "support/choice.rs"]
+mod choice;
+#[path = "support/output.rs"]
+mod output;
+#[path = "support/spread.rs"]
+mod spread;
+
+use std::error::Error;
+use std::ops::ControlFlow;
+
+use chart::{Chart, Line};
+use choice::{AnyDetector, AnyIntegrator, DetectorName, IntegratorName};
+use clap::{Parser, ValueEnum};
+use particle_damper::response::{Point, Response};
+use particle_damper::{
+    ContactLaw, HertzMindlin, HertzTsuji, Material, ResponseCurve, RestitutionImpulse, Slot,
+};
+use plotters::prelude::SeriesLabelPosition;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum LawName {
+    /// The paper's strict law.
+    HertzTsuji,
+    /// Strict, with a tangential spring.
+    HertzMindlin,
+    /// The approximate law.
+    Restitution,
+    /// The approximate law as it is printed; it loses particles.
+    Literal,
+}
+
+impl LawName {
+    /// The paper's time steps.
+    const fn time_step(self) -> f64 {
+        match self {
+            Self::HertzTsuji | Self::HertzMindlin => 2e-5,
+            Self::Restitution | Self::Literal => 1e-4,
+        }
+    }
+}
+
+/// Response curves of the paper's particle damper.
+#[derive(Debug, Parser)]
+struct Options {
+    /// Contact laws to compare.
+    #[arg(long, value_delimiter = ',', default_value = "hertz-tsuji,restitution")]
+    laws: Vec<LawName>,
+    /// How time is integrated.
+    #[arg(long, default_value = "verlet")]
+    integrator: IntegratorName,
+    /// How contacts are found; all but paper-grid give the same bits.
+    #[arg(long, default_value = "linked-cells")]
+    detector: DetectorName,
+    /// Cells of the grids, up and across.
+    #[arg(long, value_delimiter = 'x', default_value = "32x20")]
+    grid: Vec<usize>,
+    /// Time steps in s; unless given 2e-5 for strict laws and 1e-4 for approximate ones.
+    #[arg(long, value_delimiter = ',')]
+    time_steps: Vec<f64>,
+    /// Numbers of particles.
+    #[arg(long, value_delimiter = ',', default_value = "0,20,40,60")]
+    particles: Vec<usize>,
+    /// Frequencies in Hz; unless given 4 to 8, closer near the peaks.
+    #[arg(long, value_delimiter = ',')]
+    frequencies: Vec<f64>,
+    /// Seeds of the initial fillings.
+    #[arg(long, value_delimiter = ',', default_value = "1")]
+    seeds: Vec<u64>,
+    /// Periods discarded; unless given 20, and without particles 9 time constants of the oscillator.
+    #[arg(long)]
+    discarded: Option<u32>,
+    /// Periods averaged.
+    #[arg(long, default_value_t = 40)]
+    averaged: u32,
+    /// A few points and periods.
+    #[arg(long)]
+    quick: bool,
+}
+
+/// A law under a time step.
+#[derive(Debug, Clone, Copy)]
+struct Variant {
+    law: LawName,
+    time_step: f64,
+}
+
+impl Options {
+    fn variants(&self) -> Vec<Variant> {
+        let variants = self.laws.iter().flat_map(|&law| {
+            let own = [law.time_step()];
+            let steps = if self.time_steps.is_empty() {
+                &own[..]
+            } else {
+                &self.time_steps
+            };
+            steps
+                .iter()
+                .map(|&time_step| Variant { law, time_step })
+                .collect::<Vec<_>>()
+        });
+        variants.collect()
+    }
+
+    fn frequencies(&self, particles: usize) -> Vec<f64> {
+        if !self.frequencies.is_empty() {
+            return self.frequencies.clone();
+        }
+        if self.quick {
+            return vec![5.0, 5.5, 6.0, 6.5, 7.0];
+        }
+        // From, to and between, in hundredths of a hertz.
+        let ranges: &[(u32, u32, usize)] = if particles == 0 {
+            &[
+                (400, 560, 10),
+                (560, 590, 5),
+                (590, 615, 1),
+                (615, 650, 5),
+                (650, 801, 10),
+            ]
+        } else {
+            &[
+                (400, 500, 25),
+                (500, 650, 5),
+                (650, 700, 10),
+                (700, 801, 25),
+            ]
+        };
+        let hundredths = ranges
+            .iter()
+            .flat_map(|&(from, to, step)| (from..to).step_by(step));
+        hundredths.map(|f| f64::from(f) / 100.0).collect()
+    }
+
+    fn points(&self) -> Vec<Point> {
+        let mut points = Vec::new();
+        for &particles in &self.particles {
+            for &seed in &self.seeds {
+                for frequency in self.frequencies(particles) {
+                    points.push(Point {
+                        particles,
+                        seed,
+                        frequency,
+                    });
+                }
+            }
+        }
+        points
+    }
+
+    fn measure(&self, variant: Variant, point: Point) -> Result<Response, Failure> {
+        let acrylic = Material::acrylic();
+        match variant.law {
+            LawName::HertzTsuji => self.under(HertzTsuji::new(acrylic), variant, point),
+            LawName::HertzMindlin => self.under(HertzMindlin::new(acrylic), variant, point),
+            LawName::Restitution => self.under(RestitutionImpulse::new(acrylic), variant, point),
+            LawName::Literal => self.under(RestitutionImpulse::literal(acrylic), variant, point),
+        }
+    }
+
+    fn under<L: ContactLaw>(
+        &self,
+        law: L,
+        variant: Variant,
+        point: Point,
+    ) -> Result<Response, Failure> {
+        let discarded = match self.discarded {
+            Some(periods) => periods,
+            None if self.quick => 5,
+            None if point.particles == 0 => (20.0 * point.frequency).ceil() as u32,
+            None => 20,
+        };
+        let grid = [self.grid[0], self.grid[1]];
+        let curve: ResponseCurve<L, Slot, AnyDetector, AnyIntegrator> = ResponseCurve::new(law)
+            .detector(self.detector.detector(grid)?)
+            .integrator(self.integrator.integrator())
+            .time_step(variant.time_step)
+            .periods(discarded, if self.quick { 10 } else { self.averaged })
+            .contained(variant.law != LawName::Literal && self.detector != DetectorName::PaperGrid);
+        Ok(curve.measure(point, |_| ControlFlow::Continue(()))?)
+    }
+}
+
+type Failure = Box<dyn Error + Send + Sync>;
+
+/// The name by which an option knows a value.
+fn name(value: impl ValueEnum) -> String {
+    value
+        .to_possible_value()
+        .map_or_else(String::new, |value| value.get_name().to_owned())
+}
+
+fn main() -> Result<(), Failure> {
+    let options = Options::parse();
+    if options.grid.len() != 2 {
+        return Err("--grid takes the cells up and across, as in 32x20".into());
+    }
+    let (variants, points) = (options.variants(), options.points());
+    let jobs: Vec<(usize, Point)> = (0..variants.len())
+        .flat_map(|variant| points.iter().map(move |&point| (variant, point)))
+        .collect();
+
+    // Longest first, so that no core waits for another at the end.
+    let steps = |job: usize| {
+        let (variant, point) = jobs[job];
+        (point.particles as f64 + 4.0) / (point.frequency * variants[variant].time_step)
+    };
+    let mut order: Vec<usize> = (0..jobs.len()).collect();
+    order.sort_by(|a, b| steps(*b).total_cmp(&steps(*a)));
+    let bar = output::progress_bar(order.iter().map(|job| steps(*job) as u64).sum());
+    let mut responses = vec![None; jobs.len()];
+    spread::spread(
+        &order,
+        |job| options.measure(variants[jobs[job].0], jobs[job].1),
+        |job, response| {
+            responses[job] = Some(response);
+            bar.inc(steps(job) as u64);
+        },
+    )?;
+    bar.finish_and_clear();
+    let results: Vec<(usize, Response)> = jobs
+        .iter()
+        .zip(&responses)
+        .filter_map(|(job, response)| Some((job.0, (*response)?)))
+        .collect();
+
+    let directory = output::directory("response")?;
+    let rows = results
+        .iter()
+        .map(|(variant, response)| row(&options, variants[*variant], response));
+    output::write_table(&directory.join("response.csv"), COLUMNS, rows)?;
+    draw(&options, &variants, &results)
+}
+
+const COLUMNS: &str = "law,integrator,detector,time_step_s,particles,seed,frequency_hz,\
+    rms_zero,rms_mean,first_harmonic,max_overlap_m,outside";
+
+fn row(options: &Options, variant: Variant, response: &Response) -> String {
+    let Point {
+        particles,
+        seed,
+        frequency,
+    } = response.point;
+    format!(
+        "{},{},{},{},{particles},{seed},{frequency},{:.6},{:.6},{:.6},{:.4e},{}",
+        name(variant.law),
+        name(options.integrator),
+        name(options.detector),
+        variant.time_step,
+        response.rms_zero,
+        response.rms_mean,
+        response.first_harmonic,
+        response.max_overlap,
+        response.outside,
+    )
+}
+
+/// A line for each variant, number of particles and seed.
+fn draw(
+    options: &Options,
+    variants: &[Variant],
+    results: &[(usize, Response)],
+) -> Result<(), Failure> {
+    let mut lines = Vec::new();
+    for (colour, &particles) in options.particles.iter().enumerate() {
+        for (number, variant) in variants.iter().enumerate() {
+            for (turn, &seed) in options.seeds.iter().enumerate() {
+                let of_line = |(variant, response): &&(usize, Response)| {
+                    let point = response.point;
+                    *variant == number && point.particles == particles && point.seed == seed
+                };
+                let label = format!(
+                    "N = {particles}, {}, {} s",
+                    name(variant.law),
+                    variant.time_step
+                );
+                lines.push(Line {
+                    label: if turn == 0 { label } else { String::new() },
+                    colour,
+                    dash: [0, 8, 4, 2][number.min(3)],
+                    marked: false,
+                    points: results
+                        .iter()
+                        .filter(of_line)
+                        .map(|(_, response)| (response.point.frequency, response.rms_zero))
+                        .collect(),
+                });
+            }
+        }
+    }
+    let all = || lines.iter().flat_map(|line| &line.points);
+    let bounds = |of: fn(&(f64, f64)) -> f64| {
+        let values = all().map(of);
+        values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
+            (low.min(value), high.max(value))
+        })
+    };
+    let (x, y) = (bounds(|point| point.0), bounds(|point| point.1));
+    let chart = Chart {
+        title: "Response of the oscillator with N particles",
+        axes: ["frequency f (Hz)", "RMS displacement / (F/K)"],
+        x: x.0..x.1.max(x.0 + 0.1),
+        y: 0.8 * y.0..1.2 * y.1,
+        logarithmic: [false, true],
+        legend: SeriesLabelPosition::UpperRight,
+    };
+    let path = output::directory("response")?.join("response.svg");
+    chart.draw(&path, &lines)?;
+    output::say_where("picture", &path);
+    Ok(())
+}

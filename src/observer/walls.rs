@@ -1,0 +1,105 @@
+use glam::DVec3;
+
+use super::{ContactEvent, Frame, Observer};
+use crate::damper::Partner;
+
+/// What happened at one wall.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct WallRecord {
+    /// Number of the cavity.
+    pub cavity: usize,
+    /// Number of the wall.
+    pub wall: u32,
+    /// Force of the particles on the wall at the end of the last step, in N; of an impulse law, over
+    /// the step.
+    pub force: DVec3,
+    /// Largest length of that force so far, in N.
+    pub peak: f64,
+    /// Impulse on the wall so far, in N s: the sum of force times time step.
+    pub impulse: DVec3,
+    /// How many contacts have begun.
+    pub impacts: u64,
+}
+
+/// Records force, impulse and impacts for each wall.
+///
+/// An impact is a contact that did not touch (under an impulse law: was not struck) in the step
+/// before.
+#[derive(Debug, Clone, Default)]
+pub struct WallRecorder {
+    time: f64,
+    records: Vec<WallRecord>,
+    /// Cavity, wall and particle of each contact, in ascending order.
+    before: Vec<(usize, u32, usize)>,
+    now: Vec<(usize, u32, usize)>,
+}
+
+impl WallRecorder {
+    /// A recorder that has seen nothing yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The records, by cavity and wall; none before the first step.
+    #[must_use]
+    pub fn records(&self) -> &[WallRecord] {
+        &self.records
+    }
+
+    /// The record of a wall.
+    #[must_use]
+    pub fn wall(&self, cavity: usize, wall: u32) -> Option<&WallRecord> {
+        let is_it = |record: &&WallRecord| record.cavity == cavity && record.wall == wall;
+        self.records.iter().find(is_it)
+    }
+
+    /// The mean force on a wall over the time watched, in N.
+    #[must_use]
+    pub fn mean_force(&self, cavity: usize, wall: u32) -> Option<DVec3> {
+        let record = self.wall(cavity, wall)?;
+        (self.time > 0.0).then(|| record.impulse / self.time)
+    }
+}
+
+impl Observer for WallRecorder {
+    fn wants_contacts(&self) -> bool {
+        true
+    }
+
+    fn contact(&mut self, event: &ContactEvent) {
+        if let Partner::Wall(wall) = event.partner {
+            self.now.push((event.cavity, wall, event.particle));
+        }
+    }
+
+    fn step(&mut self, frame: &Frame<'_>) {
+        if self.records.is_empty() {
+            for cavity in 0..frame.cavities() {
+                self.records
+                    .extend((0..frame.walls(cavity)).map(|wall| WallRecord {
+                        cavity,
+                        wall,
+                        ..WallRecord::default()
+                    }));
+            }
+        }
+        self.time += frame.time_step();
+        self.now.sort_unstable();
+        self.now.dedup();
+        for record in &mut self.records {
+            let load = frame.wall_load(record.cavity, record.wall);
+            record.force = load.unwrap_or_default().force;
+            record.peak = record.peak.max(record.force.length());
+            record.impulse += record.force * frame.time_step();
+            let begun = self.now.iter().filter(|contact| {
+                (contact.0, contact.1) == (record.cavity, record.wall)
+                    && self.before.binary_search(contact).is_err()
+            });
+            record.impacts += begun.count() as u64;
+        }
+        std::mem::swap(&mut self.before, &mut self.now);
+        self.now.clear();
+    }
+}

@@ -1,0 +1,560 @@
+//! Every trait implemented from outside, with what the crate makes public alone, and run together.
+
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+use std::f64::consts::PI;
+
+use particle_damper::cavity::{Cavity, Cuboid, Slot, WallPoint};
+use particle_damper::glam::{DMat3, DVec3, dvec3};
+use particle_damper::integrator::{
+    Columns, Coordinate, Integrator, Motions, Stage, System, VelocityVerlet,
+};
+use particle_damper::mount::{Motion, Mount, SingleDof};
+use particle_damper::{
+    AllPairs, Bed, Bodies, Body, CellGrid, Contact, ContactEvent, ContactForce, ContactLaw, Damper,
+    Detector, HertzTsuji, LawError, LinkedCells, Material, Materials, Observer, Pairs, Particle,
+    Partner, Skin, StepError,
+};
+
+/// Sorts the lower ends along x, and sweeps.
+#[derive(Debug, Clone, Default)]
+struct SweepAndPrune {
+    order: Vec<(f64, u32)>,
+}
+
+impl Detector for SweepAndPrune {
+    fn detect(&mut self, bed: &Bed<'_>, pairs: &mut Pairs) {
+        let half = 0.5 * bed.margin();
+        self.order.clear();
+        for (n, radius) in bed.radii().iter().enumerate() {
+            self.order
+                .push((bed.position(n).x - radius - half, n as u32));
+        }
+        self.order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        for (place, &(_, a)) in self.order.iter().enumerate() {
+            let end = bed.position(a as usize).x + bed.radii()[a as usize] + half;
+            for &(begin, b) in &self.order[place + 1..] {
+                if begin > end {
+                    break;
+                }
+                pairs.push(a as usize, b as usize);
+            }
+        }
+    }
+}
+
+/// F = k d + c d', never pulling.
+#[derive(Debug, Clone, Copy)]
+struct SpringDashpot {
+    stiffness: f64,
+    damping: f64,
+}
+
+impl ContactLaw for SpringDashpot {
+    type Coefficients = f64;
+    type Memory = ();
+
+    fn coefficients(&self, bodies: &Bodies) -> Result<f64, LawError> {
+        Ok(PI * (bodies.effective_mass() / self.stiffness).sqrt() / 5.0)
+    }
+
+    fn force(&self, _: &f64, contact: &Contact, (): &()) -> ContactForce {
+        let normal = self.stiffness * contact.overlap + self.damping * contact.approach_speed();
+        ContactForce::new(normal.max(0.0), DVec3::ZERO)
+    }
+
+    fn time_step_limit(&self, longest: &f64) -> f64 {
+        *longest
+    }
+}
+
+/// The same with a tangential spring that slips (Cundall & Strack 1979).
+#[derive(Debug, Clone, Copy)]
+struct CundallStrack {
+    normal: SpringDashpot,
+    stiffness: f64,
+    friction: f64,
+}
+
+impl CundallStrack {
+    fn stretch(&self, contact: &Contact, before: DVec3) -> DVec3 {
+        let flat = before - before.dot(contact.normal) * contact.normal;
+        let stretch = flat + contact.slip() * contact.elapsed;
+        let normal = self.normal.force(&0.0, contact, &()).normal;
+        stretch.clamp_length_max(self.friction * normal / self.stiffness)
+    }
+}
+
+impl ContactLaw for CundallStrack {
+    type Coefficients = f64;
+    type Memory = DVec3;
+
+    fn coefficients(&self, bodies: &Bodies) -> Result<f64, LawError> {
+        self.normal.coefficients(bodies)
+    }
+
+    fn force(&self, own: &f64, contact: &Contact, memory: &DVec3) -> ContactForce {
+        let normal = self.normal.force(own, contact, &()).normal;
+        ContactForce::new(normal, self.stretch(contact, *memory) * -self.stiffness)
+    }
+
+    fn advance(&self, _: &f64, contact: &Contact, memory: &DVec3) -> DVec3 {
+        self.stretch(contact, *memory)
+    }
+
+    fn time_step_limit(&self, longest: &f64) -> f64 {
+        *longest
+    }
+}
+
+/// Kick, drift, kick.
+#[derive(Debug, Clone, Copy)]
+struct Leapfrog;
+
+fn kick<T: Coordinate>(columns: &mut Columns<'_, T>, dt: f64) {
+    for (v, a) in columns.velocity.iter_mut().zip(columns.acceleration) {
+        *v = *v + *a * dt;
+    }
+}
+
+fn drift<T: Coordinate>(columns: &mut Columns<'_, T>, dt: f64) {
+    for (x, v) in columns.position.iter_mut().zip(&*columns.velocity) {
+        *x = *x + *v * dt;
+    }
+}
+
+impl Integrator for Leapfrog {
+    fn step<S: System>(&mut self, system: &mut S, time_step: f64) -> Result<(), StepError> {
+        let half = 0.5 * time_step;
+        let Motions {
+            mut translation,
+            mut rotation,
+            mut mount,
+        } = system.motions();
+        kick(&mut translation, half);
+        kick(&mut rotation, half);
+        kick(&mut mount, half);
+        drift(&mut translation, time_step);
+        drift(&mut mount, time_step);
+        system.evaluate(time_step, Stage::End)?;
+        let Motions {
+            mut translation,
+            mut rotation,
+            mut mount,
+        } = system.motions();
+        kick(&mut translation, half);
+        kick(&mut rotation, half);
+        kick(&mut mount, half);
+        Ok(())
+    }
+}
+
+/// Two masses on a line: the ground, a spring, the first, a spring, the second; a cavity on each.
+#[derive(Debug, Clone, Copy)]
+struct TwoMasses {
+    masses: [f64; 2],
+    stiffness: [f64; 2],
+    speed: f64,
+}
+
+impl Mount for TwoMasses {
+    fn degrees(&self) -> usize {
+        2
+    }
+
+    fn start(&self, _coordinates: &mut [f64], velocities: &mut [f64]) {
+        velocities[1] = self.speed;
+    }
+
+    fn motion(&self, _time: f64, x: &[f64], v: &[f64], cavity: usize) -> Motion {
+        // The containers stand a metre apart.
+        let place = DVec3::Z * cavity as f64;
+        Motion {
+            position: place + DVec3::X * x[cavity],
+            velocity: DVec3::X * v[cavity],
+        }
+    }
+
+    fn accelerate(&self, _time: f64, x: &[f64], _v: &[f64], loads: &[DVec3], a: &mut [f64]) {
+        let spring = self.stiffness[1] * (x[1] - x[0]);
+        a[0] = (loads[0].x + spring - self.stiffness[0] * x[0]) / self.masses[0];
+        a[1] = (loads[1].x - spring) / self.masses[1];
+    }
+
+    fn strike(&self, cavity: usize, impulse: DVec3, v: &mut [f64]) {
+        v[cavity] += impulse.x / self.masses[cavity];
+    }
+
+    fn mobility(&self, cavity: usize) -> DMat3 {
+        DMat3::from_diagonal(DVec3::X / self.masses[cavity])
+    }
+}
+
+impl TwoMasses {
+    fn energy(&self, x: &[f64], v: &[f64]) -> f64 {
+        let kinetic = self.masses[0] * v[0] * v[0] + self.masses[1] * v[1] * v[1];
+        let stretch = x[1] - x[0];
+        let springs = self.stiffness[0] * x[0] * x[0] + self.stiffness[1] * stretch * stretch;
+        0.5 * (kinetic + springs)
+    }
+}
+
+/// The lower half of a pipe along z, with a lid and two ends.
+#[derive(Debug, Clone, Copy)]
+struct HalfPipe {
+    radius: f64,
+    length: f64,
+}
+
+impl Cavity for HalfPipe {
+    fn walls(&self) -> u32 {
+        4
+    }
+
+    fn wall(&self, number: u32, point: DVec3) -> WallPoint {
+        let half = 0.5 * self.length;
+        match number {
+            0 => {
+                let outwards = dvec3(point.x, point.y - self.radius, 0.0);
+                WallPoint {
+                    normal: -outwards.normalize_or(DVec3::NEG_Y),
+                    distance: self.radius - outwards.length(),
+                }
+            }
+            1 => WallPoint {
+                normal: DVec3::NEG_Y,
+                distance: self.radius - point.y,
+            },
+            2 => WallPoint {
+                normal: DVec3::Z,
+                distance: point.z + half,
+            },
+            _ => WallPoint {
+                normal: DVec3::NEG_Z,
+                distance: half - point.z,
+            },
+        }
+    }
+
+    fn bounds(&self) -> [DVec3; 2] {
+        let corner = dvec3(self.radius, 0.0, 0.5 * self.length);
+        [-corner, corner + DVec3::Y * self.radius]
+    }
+
+    fn wall_name(&self, number: u32) -> &'static str {
+        ["pipe", "lid", "near end", "far end"][number as usize % 4]
+    }
+}
+
+/// Adds up the energy of linear springs, and what the walls of the first cavity feel.
+#[derive(Debug, Default)]
+struct Watch {
+    stiffness: f64,
+    stored: f64,
+    contacts: usize,
+    on_first: DVec3,
+}
+
+impl Observer for Watch {
+    fn wants_contacts(&self) -> bool {
+        true
+    }
+
+    fn contact(&mut self, event: &ContactEvent) {
+        self.contacts += 1;
+        self.stored += 0.5 * self.stiffness * event.contact.overlap * event.contact.overlap;
+        if let (Partner::Wall(_), 0) = (event.partner, event.cavity) {
+            self.on_first -= event.contact.normal * event.force.normal + event.force.tangential;
+        }
+    }
+}
+
+const PIPE: HalfPipe = HalfPipe {
+    radius: 0.03,
+    length: 0.04,
+};
+const SPRING: SpringDashpot = SpringDashpot {
+    stiffness: 1e4,
+    damping: 0.0,
+};
+const MASSES: TwoMasses = TwoMasses {
+    masses: [0.05, 0.03],
+    stiffness: [200.0, 100.0],
+    speed: 0.3,
+};
+
+/// Four particles of two sizes in each pipe.
+fn particles() -> Vec<Particle> {
+    (0..8_u32)
+        .map(|n| {
+            let column = f64::from(n % 4);
+            let (radius, mass) = if n % 2 == 0 {
+                (3e-3, 2e-4)
+            } else {
+                (2e-3, 6e-5)
+            };
+            Particle::new(radius, mass)
+                .unwrap()
+                .at(dvec3(0.007 * column - 0.0105, 0.02, 0.003 * (column - 1.0)))
+                .moving(dvec3(0.1, -0.02 * column, 0.05 * column))
+                .in_cavity(n / 4)
+        })
+        .collect()
+}
+
+#[test]
+fn energy_is_kept_by_an_elastic_law_with_a_leapfrog_on_two_masses() {
+    let gravity = DVec3::NEG_Y * 9.81;
+    let mut damper = Damper::builder(PIPE, SPRING)
+        .another_cavity(PIPE)
+        .mount(MASSES)
+        .detector(SweepAndPrune::default())
+        .integrator(Leapfrog)
+        .gravity(gravity)
+        .particles(particles())
+        .time_step(2e-6)
+        .build()
+        .unwrap();
+    let mut first = None;
+    let (mut contacts, mut largest) = (0, 0.0_f64);
+    for _ in 0..200_000 {
+        let mut watch = Watch {
+            stiffness: SPRING.stiffness,
+            ..Watch::default()
+        };
+        damper.step_watched(&mut watch).unwrap();
+        let potential: f64 = damper
+            .particles()
+            .map(|p| -p.mass * gravity.dot(p.position))
+            .sum();
+        let mount = MASSES.energy(damper.coordinates(), damper.rates());
+        let energy = damper.kinetic_energy() + potential + mount + watch.stored;
+        let start = *first.get_or_insert(energy);
+        largest = largest.max((energy / start - 1.0).abs());
+        contacts += watch.contacts;
+        let reaction = damper.reaction(0).unwrap().force;
+        assert!((reaction - watch.on_first).length() <= 1e-12 * reaction.length());
+    }
+    assert!(contacts > 10_000, "{contacts}");
+    assert!(largest < 1e-3, "{largest}");
+    assert_eq!(damper.outside(), 0);
+}
+
+#[test]
+fn momentum_along_the_line_of_two_free_masses_is_kept() {
+    let mount = TwoMasses {
+        stiffness: [0.0, 100.0],
+        ..MASSES
+    };
+    let law = CundallStrack {
+        normal: SpringDashpot {
+            stiffness: 1e4,
+            damping: 0.3,
+        },
+        stiffness: 5e3,
+        friction: 0.4,
+    };
+    let mut damper = Damper::builder(PIPE, law)
+        .another_cavity(PIPE)
+        .mount(mount)
+        .detector(SweepAndPrune::default())
+        .integrator(Leapfrog)
+        .particles(particles())
+        .time_step(4e-6)
+        .build()
+        .unwrap();
+    let momentum = |damper: &Damper<_, _, TwoMasses, _, _>| {
+        let v = damper.rates();
+        damper.momentum().x + mount.masses[0] * v[0] + mount.masses[1] * v[1]
+    };
+    let before = momentum(&damper);
+    for _ in 0..100_000 {
+        damper.step().unwrap();
+    }
+    assert!((momentum(&damper) / before - 1.0).abs() < 1e-12);
+    // All that friction and damping leave is the motion of the whole, and of what rests in it.
+    assert!(damper.particles().all(|p| p.velocity.y.abs() < 0.1));
+}
+
+/// All bits of the particles after some steps.
+fn trajectory<C, L, M, D, I>(mut damper: Damper<C, L, M, D, I>, steps: usize) -> Vec<[u64; 3]>
+where
+    C: Cavity,
+    L: ContactLaw,
+    M: Mount,
+    D: Detector,
+    I: Integrator,
+{
+    for _ in 0..steps {
+        damper.step().unwrap();
+    }
+    let vectors = damper
+        .particles()
+        .flat_map(|p| [p.position, p.velocity, p.spin]);
+    vectors.map(|v| v.to_array().map(f64::to_bits)).collect()
+}
+
+#[test]
+fn detectors_chosen_at_run_time_give_the_same_bits() {
+    let law = CundallStrack {
+        normal: SpringDashpot {
+            stiffness: 1e4,
+            damping: 0.3,
+        },
+        stiffness: 5e3,
+        friction: 0.4,
+    };
+    let run = |detectors: [Box<dyn Detector>; 2]| {
+        let damper = Damper::builder(PIPE, law)
+            .another_cavity(PIPE)
+            .mount(MASSES)
+            .detectors(detectors)
+            .integrator(Leapfrog)
+            .particles(particles())
+            .time_step(4e-6)
+            .build()
+            .unwrap();
+        trajectory(damper, 50_000)
+    };
+    let expected = run([Box::new(AllPairs), Box::new(AllPairs)]);
+    let sweep = SweepAndPrune::default;
+    assert_eq!(
+        run([Box::new(sweep()), Box::new(LinkedCells::new())]),
+        expected
+    );
+    let grid = CellGrid::in_space([8, 4, 6]).unwrap();
+    let skin = Skin::new(sweep(), 0.3).unwrap();
+    assert_eq!(run([Box::new(grid), Box::new(skin)]), expected);
+}
+
+#[test]
+fn every_part_can_be_borrowed_or_boxed() {
+    let law = HertzTsuji::new(Material::acrylic());
+    let bed: Vec<Particle> = particles().into_iter().filter(|p| p.cavity == 0).collect();
+    let plain = Damper::builder(PIPE, law.clone())
+        .mount(SingleDof::paper())
+        .detector(AllPairs)
+        .particles(bed.clone())
+        .build()
+        .unwrap();
+    let expected = trajectory(plain, 3000);
+
+    let room: Box<dyn Cavity> = Box::new(PIPE);
+    let mut sweep = SweepAndPrune::default();
+    let mut oscillator = SingleDof::paper();
+    let mount: &mut dyn Mount = &mut oscillator;
+    let mut verlet = VelocityVerlet::default();
+    let borrowed = Damper::builder(room, &law)
+        .mount(mount)
+        .detectors([&mut sweep])
+        .integrator(&mut verlet)
+        .particles(bed.clone())
+        .build()
+        .unwrap();
+    assert_eq!(trajectory(borrowed, 3000), expected);
+
+    let boxed = Damper::builder(&PIPE, Box::new(law))
+        .mount(SingleDof::paper())
+        .detectors([Box::new(sweep) as Box<dyn Detector>])
+        .particles(bed)
+        .build()
+        .unwrap();
+    assert_eq!(trajectory(boxed, 3000), expected);
+}
+
+#[test]
+fn observers_pair_up_and_nobody_watches_at_no_cost() {
+    let mut damper = Damper::builder(PIPE, SPRING)
+        .particles(particles().into_iter().filter(|p| p.cavity == 0))
+        .time_step(1e-5)
+        .build()
+        .unwrap();
+    let mut pair = (Watch::default(), (Watch::default(), ()));
+    for _ in 0..20_000 {
+        damper.step_watched(&mut pair).unwrap();
+    }
+    assert!(pair.0.contacts > 0);
+    assert_eq!(pair.0.contacts, pair.1.0.contacts);
+    assert!(!().wants_contacts() && !((), ()).wants_contacts() && pair.wants_contacts());
+}
+
+/// A solid sphere on a slope of angle a, sticking, rolls with 5/7 g sin a.
+#[test]
+fn a_tangential_spring_makes_a_sphere_roll_down_a_slope() {
+    let room = Cuboid::new(dvec3(1.0, 0.1, 0.1)).unwrap();
+    let law = CundallStrack {
+        normal: SpringDashpot {
+            stiffness: 1e4,
+            damping: 1.0,
+        },
+        stiffness: 5e3,
+        friction: 0.5,
+    };
+    let (slope, radius) = (0.2_f64, 3e-3);
+    let mut damper = Damper::builder(room, law)
+        .gravity(dvec3(slope.sin(), -slope.cos(), 0.0) * 9.81)
+        .particles([Particle::new(radius, 2e-4)
+            .unwrap()
+            .at(dvec3(-0.4, radius, 0.0))])
+        .time_step(1e-5)
+        .build()
+        .unwrap();
+    for _ in 0..30_000 {
+        damper.step().unwrap();
+    }
+    let ball = damper.particle(0).unwrap();
+    let speed = 5.0 / 7.0 * 9.81 * slope.sin() * damper.time();
+    assert!(
+        (ball.velocity.x / speed - 1.0).abs() < 1e-2,
+        "{} for {speed}",
+        ball.velocity.x
+    );
+    assert!((-ball.spin.z * radius / speed - 1.0).abs() < 1e-2);
+}
+
+/// A linear spring and dashpot has the restitution exp(-pi z/sqrt(1 - z^2)) where it may pull; tested
+/// by itself, away from any damper.
+#[test]
+fn a_law_can_be_tested_by_itself() {
+    let sphere = Body::sphere(3e-3, 2e-4, Materials::FIRST);
+    let wall = Bodies::new(sphere, Body::wall(Materials::FIRST));
+    let longest = SPRING.coefficients(&wall).unwrap();
+    assert!((longest - PI * (2e-4_f64 / 1e4).sqrt() / 5.0).abs() < 1e-18);
+    let contact = Contact::new(DVec3::Y, 1e-5, DVec3::NEG_Y);
+    let damped = SpringDashpot {
+        damping: 0.5,
+        ..SPRING
+    };
+    assert!((damped.force(&longest, &contact, &()).normal - 0.6).abs() < 1e-15);
+    let leaving = Contact::new(DVec3::Y, 1e-5, DVec3::Y);
+    assert_eq!(
+        damped.force(&longest, &leaving, &()),
+        ContactForce::default()
+    );
+}
+
+#[test]
+fn a_detector_that_invents_particles_is_an_error() {
+    #[derive(Debug, Clone)]
+    struct Liar(usize, usize);
+    impl Detector for Liar {
+        fn detect(&mut self, _bed: &Bed<'_>, pairs: &mut Pairs) {
+            pairs.push(self.0, self.1);
+        }
+    }
+    for liar in [Liar(0, 7), Liar(1, 1), Liar(usize::MAX, 0)] {
+        let built = Damper::builder(Slot::paper(), SPRING)
+            .detector(liar.clone())
+            .particles([
+                Particle::new(3e-3, 2e-4)
+                    .unwrap()
+                    .at(dvec3(0.01, 0.01, 0.0)),
+                Particle::new(3e-3, 2e-4)
+                    .unwrap()
+                    .at(dvec3(0.03, 0.01, 0.0)),
+            ])
+            .build();
+        let error = built.err().unwrap().to_string();
+        assert!(error.contains("proposed the pair"), "{liar:?}: {error}");
+    }
+}

@@ -1,0 +1,464 @@
+//! What other codes got wrong, held against whole dampers.
+
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+use particle_damper::cavity::{Cavity, Cuboid, Slot};
+use particle_damper::glam::{DVec3, dvec3};
+use particle_damper::integrator::{Integrator, RungeKutta4, VelocityVerlet};
+use particle_damper::mount::{Motion, Mount, SingleDof};
+use particle_damper::{
+    Bodies, Contact, ContactForce, ContactLaw, Damper, Detector, Filling, HertzMindlin, HertzTsuji,
+    Interaction, LawError, Material, Particle, RestitutionImpulse, StepError,
+};
+
+fn paper_particle() -> Particle {
+    Particle::new(3e-3, 0.2e-3).unwrap()
+}
+
+fn acrylic(restitution: f64, friction: f64) -> Material {
+    let own = Interaction::new(restitution, friction).unwrap();
+    Material::new(0.4e9, 0.3, own).unwrap()
+}
+
+fn bed(count: usize) -> Vec<Particle> {
+    Filling::new(2)
+        .with(count, paper_particle())
+        .fill(&Slot::paper())
+        .unwrap()
+}
+
+fn steps<C, L, M, D, I>(damper: &mut Damper<C, L, M, D, I>, count: usize)
+where
+    C: Cavity,
+    L: ContactLaw,
+    M: Mount,
+    D: Detector,
+    I: Integrator,
+{
+    for _ in 0..count {
+        damper.step().unwrap();
+    }
+}
+
+/// Momentum grows at a large step (seen elsewhere): a container that nothing holds and its particles
+/// keep theirs to rounding.
+fn keeps_momentum<L: ContactLaw, I: Integrator>(
+    law: L,
+    integrator: I,
+    time_step: f64,
+    count: usize,
+) {
+    let mass = 0.086;
+    let mount = SingleDof::new(mass, 0.0, 0.0)
+        .unwrap()
+        .released_from(0.0, 0.4)
+        .unwrap();
+    let mut damper = Damper::builder(Slot::paper(), law)
+        .mount(mount)
+        .integrator(integrator)
+        .gravity(DVec3::ZERO)
+        .particles(bed(40))
+        .time_step(time_step)
+        .build()
+        .unwrap();
+    let momentum =
+        |damper: &Damper<_, _, SingleDof, _, _>| damper.momentum().y + mass * damper.rates()[0];
+    let before = momentum(&damper);
+    let mut struck = 0;
+    for _ in 0..count {
+        damper.step().unwrap();
+        struck += damper.contacts();
+        let drift = (momentum(&damper) / before - 1.0).abs();
+        assert!(drift < 1e-12, "{drift} at {} s", damper.time());
+    }
+    assert!(struck > 100, "{struck}");
+}
+
+#[test]
+fn momentum_of_container_and_particles_is_kept_to_rounding() {
+    let strict = || HertzTsuji::new(Material::acrylic());
+    keeps_momentum(strict(), VelocityVerlet::default(), 2e-5, 20_000);
+    keeps_momentum(strict(), RungeKutta4::default(), 2e-5, 20_000);
+    let mindlin = HertzMindlin::new(Material::acrylic());
+    keeps_momentum(mindlin, VelocityVerlet::default(), 1.5e-5, 20_000);
+    let impulse = || RestitutionImpulse::new(Material::acrylic());
+    keeps_momentum(impulse(), VelocityVerlet::default(), 1e-4, 5_000);
+    keeps_momentum(impulse(), RungeKutta4::default(), 1e-4, 5_000);
+}
+
+/// The wall force has the wrong sign (seen elsewhere): a resting bed presses down with N m g.
+fn floor_carries_the_weight<L: ContactLaw>(law: L, time_step: f64) {
+    let count = 20;
+    let mut damper = Damper::builder(Slot::paper(), law)
+        .particles(bed(count))
+        .time_step(time_step)
+        .build()
+        .unwrap();
+    let resting = (1.0 / time_step) as usize;
+    steps(&mut damper, resting);
+    let (mut floor, mut reaction, mut side, averaged) = (0.0, 0.0, 0.0, resting / 2);
+    for _ in 0..averaged {
+        damper.step().unwrap();
+        floor += damper.wall_load(0, 2).unwrap().force.y / averaged as f64;
+        side += damper.wall_load(0, 0).unwrap().force.x / averaged as f64;
+        reaction += damper.reaction(0).unwrap().impulse.y / (averaged as f64 * time_step);
+    }
+    let weight = count as f64 * 0.2e-3 * 9.81;
+    assert!(
+        (floor / -weight - 1.0).abs() < 1e-3,
+        "{floor} for {}",
+        -weight
+    );
+    assert!(
+        (reaction / -weight - 1.0).abs() < 1e-3,
+        "{reaction} for {}",
+        -weight
+    );
+    assert!(side <= 0.0, "the left wall is pushed to the left: {side}");
+}
+
+#[test]
+fn the_floor_carries_the_weight_of_the_bed() {
+    floor_carries_the_weight(HertzTsuji::new(Material::acrylic()), 2e-5);
+    floor_carries_the_weight(HertzMindlin::new(Material::acrylic()), 1.5e-5);
+    floor_carries_the_weight(RestitutionImpulse::new(Material::acrylic()), 1e-4);
+}
+
+/// The host gets exactly the momentum that the particles lose.
+fn impulse_is_the_change_of_momentum<L: ContactLaw, I: Integrator>(law: L, integrator: I, dt: f64) {
+    let gravity = dvec3(0.0, -9.81, 0.0);
+    let mut damper = Damper::builder(Slot::paper(), law)
+        .integrator(integrator)
+        .gravity(gravity)
+        .particles(bed(20))
+        .time_step(dt)
+        .build()
+        .unwrap();
+    let mass = 20.0 * 0.2e-3;
+    let interval = 3.4 * dt;
+    let (mut largest, mut moved) = (0.0_f64, 0.0_f64);
+    for n in 1..3000 {
+        let time = f64::from(n) * interval;
+        let end = Motion {
+            position: dvec3(0.05 * time, 0.2 * time - 3.0 * time * time, 0.0),
+            velocity: dvec3(0.05, 0.2 - 6.0 * time, 0.0),
+        };
+        let before = damper.momentum();
+        let impulse = damper.drive(end, interval).unwrap().impulse;
+        let lost = before + gravity * (mass * interval) - damper.momentum();
+        largest = largest.max((impulse - lost).length());
+        moved = moved.max(before.length());
+    }
+    assert!(largest < 1e-13 * moved.max(1e-4), "{largest} of {moved}");
+}
+
+#[test]
+fn the_impulse_on_the_container_is_the_momentum_that_the_particles_lose() {
+    let strict = || HertzTsuji::new(Material::acrylic());
+    impulse_is_the_change_of_momentum(strict(), VelocityVerlet::default(), 2e-5);
+    impulse_is_the_change_of_momentum(strict(), RungeKutta4::default(), 2e-5);
+    let impulse = || RestitutionImpulse::new(Material::acrylic());
+    impulse_is_the_change_of_momentum(impulse(), VelocityVerlet::default(), 1e-4);
+    impulse_is_the_change_of_momentum(impulse(), RungeKutta4::default(), 1e-4);
+}
+
+/// Particles cross moving walls (seen elsewhere): the box jerks up with 10 g under a resting bed,
+/// stops as hard, and comes back.
+fn slammed<L: ContactLaw>(law: L, time_step: f64) {
+    let mut damper = Damper::builder(Slot::paper(), law)
+        .particles(bed(60))
+        .time_step(time_step)
+        .build()
+        .unwrap();
+    steps(&mut damper, (0.5 / time_step) as usize);
+    let (mut place, mut speed) = (0.0, 0.0);
+    for acceleration in [98.1, -98.1, -98.1, 98.1, 98.1, -98.1] {
+        for _ in 0..(0.02 / time_step) as usize {
+            place += speed * time_step + 0.5 * acceleration * time_step * time_step;
+            speed += acceleration * time_step;
+            let end = Motion {
+                position: DVec3::Y * place,
+                velocity: DVec3::Y * speed,
+            };
+            damper.drive(end, time_step).unwrap();
+            assert_eq!(damper.outside(), 0, "at {} s", damper.time());
+        }
+    }
+}
+
+#[test]
+fn nobody_leaves_a_box_that_is_slammed_into_the_bed() {
+    let fast = 3.0;
+    let strict = HertzTsuji::new(Material::acrylic())
+        .reference_speed(fast)
+        .unwrap();
+    slammed(strict, 1e-5);
+    let mindlin = HertzMindlin::new(Material::acrylic())
+        .reference_speed(fast)
+        .unwrap();
+    slammed(mindlin, 1e-5);
+    slammed(RestitutionImpulse::new(Material::acrylic()), 1e-4);
+}
+
+/// A resting bed sinks (seen elsewhere).
+fn rests<L: ContactLaw>(law: L, time_step: f64, duration: f64) {
+    let mut damper = Damper::builder(Slot::paper(), law)
+        .particles(bed(40))
+        .time_step(time_step)
+        .build()
+        .unwrap();
+    steps(&mut damper, (3.0 / time_step) as usize);
+    let before: Vec<DVec3> = damper.particles().map(|p| p.position).collect();
+    steps(&mut damper, (duration / time_step) as usize);
+    for (number, (particle, before)) in damper.particles().zip(before).enumerate() {
+        let drift = (particle.position - before).length() / particle.radius;
+        assert!(drift < 1e-3, "particle {number} by {drift} radii");
+    }
+    assert_eq!(damper.outside(), 0);
+}
+
+#[test]
+fn a_resting_bed_rests() {
+    rests(HertzMindlin::new(Material::acrylic()), 1.5e-5, 2.0);
+    rests(RestitutionImpulse::new(Material::acrylic()), 1e-4, 10.0);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn a_resting_bed_rests_for_a_minute() {
+    rests(HertzTsuji::new(Material::acrylic()), 2e-5, 60.0);
+    rests(HertzMindlin::new(Material::acrylic()), 1.5e-5, 60.0);
+    rests(RestitutionImpulse::new(Material::acrylic()), 1e-4, 60.0);
+}
+
+/// Pushing overlap out creates energy (seen elsewhere): an elastic ball bounces from wall to wall a
+/// thousand times.
+fn bounces_on<L: ContactLaw>(law: L, time_step: f64) {
+    let room = Slot::new(0.02, 0.02).unwrap();
+    let ball = paper_particle()
+        .at(dvec3(0.009, 0.0113, 0.0))
+        .moving(dvec3(0.37, 0.91, 0.0));
+    let mut damper = Damper::builder(room, law)
+        .gravity(DVec3::ZERO)
+        .particles([ball])
+        .time_step(time_step)
+        .build()
+        .unwrap();
+    let before = damper.kinetic_energy();
+    let (mut bounces, mut touches) = (0, false);
+    while bounces < 1000 {
+        damper.step().unwrap();
+        let touched = std::mem::replace(&mut touches, damper.largest_overlap() > 0.0);
+        if touched && !touches {
+            bounces += 1;
+            let drift = (damper.kinetic_energy() / before - 1.0).abs();
+            assert!(drift < 1e-4, "{drift} after {bounces} bounces");
+        }
+    }
+}
+
+#[test]
+fn an_elastic_ball_keeps_its_energy_over_a_thousand_bounces() {
+    bounces_on(HertzTsuji::new(acrylic(1.0, 0.0)), 1e-6);
+}
+
+/// Under impulses the ball touches between two steps, so its bounces are counted by its velocity.
+#[test]
+fn an_elastic_ball_keeps_its_energy_under_impulses() {
+    let room = Slot::new(0.02, 0.02).unwrap();
+    let ball = paper_particle()
+        .at(dvec3(0.009, 0.0113, 0.0))
+        .moving(dvec3(0.37, 0.91, 0.0));
+    let mut damper = Damper::builder(room, RestitutionImpulse::new(acrylic(1.0, 0.0)))
+        .gravity(DVec3::ZERO)
+        .particles([ball])
+        .time_step(1e-4)
+        .build()
+        .unwrap();
+    let before = damper.kinetic_energy();
+    let (mut bounces, mut velocity) = (0, ball.velocity);
+    while bounces < 1000 {
+        damper.step().unwrap();
+        let now = damper.particle(0).unwrap().velocity;
+        bounces += u32::from(now.x * velocity.x < 0.0) + u32::from(now.y * velocity.y < 0.0);
+        velocity = now;
+        let drift = (damper.kinetic_energy() / before - 1.0).abs();
+        assert!(drift < 1e-4, "{drift} after {bounces} bounces");
+    }
+}
+
+/// NaN (seen elsewhere): two centres at one point have no normal.
+#[test]
+fn coincident_centres_are_refused_or_stay_finite() {
+    let twins = [paper_particle().at(dvec3(0.03, 0.01, 0.0)); 2];
+    let law = || HertzTsuji::new(Material::acrylic());
+    let refused = Damper::builder(Slot::paper(), law())
+        .particles(twins)
+        .build();
+    assert!(
+        refused
+            .unwrap_err()
+            .to_string()
+            .contains("particles 0 and 1 overlap by 0.006")
+    );
+    let mut damper = Damper::builder(Slot::paper(), law())
+        .particles(twins)
+        .initial_overlap(3.0)
+        .overlap_limit(f64::INFINITY)
+        .build()
+        .unwrap();
+    steps(&mut damper, 10_000);
+    assert!(
+        damper
+            .particles()
+            .all(|p| p.position.is_finite() && p.velocity.is_finite())
+    );
+    let mut damper = Damper::builder(Slot::paper(), RestitutionImpulse::new(Material::acrylic()))
+        .particles(twins)
+        .initial_overlap(3.0)
+        .overlap_limit(f64::INFINITY)
+        .time_step(1e-4)
+        .build()
+        .unwrap();
+    steps(&mut damper, 10_000);
+    assert!(
+        damper
+            .particles()
+            .all(|p| p.position.is_finite() && p.velocity.is_finite())
+    );
+}
+
+/// A host that goes wrong gets an error, and can go on from the last good state.
+fn survives_its_host<L: ContactLaw + Clone>(law: &L, time_step: f64) {
+    let build = || {
+        Damper::builder(Slot::paper(), law.clone())
+            .particles(bed(30))
+            .time_step(time_step)
+            .build()
+            .unwrap()
+    };
+    let mut damper = build();
+    steps(&mut damper, 2000);
+    let good = damper.snapshot();
+    let at = |position| Motion {
+        position,
+        velocity: DVec3::ZERO,
+    };
+
+    let metre = damper.drive(at(DVec3::Y), time_step);
+    assert!(
+        matches!(
+            metre,
+            Err(StepError::Escaped { .. } | StepError::Overlap { .. })
+        ),
+        "{metre:?}"
+    );
+    damper.restore(&good).unwrap();
+    for bad in [DVec3::NAN, DVec3::X * f64::INFINITY] {
+        let told = damper.drive(at(bad), time_step);
+        assert!(matches!(told, Err(StepError::Container { .. })), "{told:?}");
+    }
+    for interval in [0.0, -time_step, f64::NAN, f64::INFINITY, 1e300] {
+        let told = damper.drive(at(DVec3::ZERO), interval);
+        assert!(matches!(told, Err(StepError::Value(_))), "{told:?}");
+    }
+    let told = damper.drive(at(DVec3::Z), time_step);
+    assert!(
+        matches!(told, Err(StepError::OutOfPlane { .. })),
+        "{told:?}"
+    );
+
+    // As if nothing had happened.
+    damper.restore(&good).unwrap();
+    let mut other = build();
+    steps(&mut other, 2000);
+    for _ in 0..200 {
+        let end = at(damper.container(0).unwrap().position + DVec3::Y * 1e-6);
+        let (a, b) = (
+            damper.drive(end, time_step).unwrap(),
+            other.drive(end, time_step).unwrap(),
+        );
+        assert_eq!(a, b);
+    }
+    assert!(damper.particles().eq(other.particles()));
+}
+
+#[test]
+fn a_damper_survives_its_host() {
+    survives_its_host(&HertzTsuji::new(Material::acrylic()), 2e-5);
+    survives_its_host(&HertzMindlin::new(Material::acrylic()), 1.5e-5);
+    survives_its_host(&RestitutionImpulse::new(Material::acrylic()), 1e-4);
+}
+
+/// A law that fails past an overlap, in one of three ways.
+#[derive(Debug, Clone, Copy)]
+struct Failing {
+    way: usize,
+    overlap: f64,
+}
+
+impl ContactLaw for Failing {
+    type Coefficients = ();
+    type Memory = ();
+
+    fn coefficients(&self, _bodies: &Bodies) -> Result<(), LawError> {
+        Ok(())
+    }
+
+    fn force(&self, (): &(), contact: &Contact, (): &()) -> ContactForce {
+        let mut force = ContactForce::new(1e3 * contact.overlap, DVec3::ZERO);
+        if contact.overlap > self.overlap {
+            match self.way {
+                0 => force.normal = f64::NAN,
+                1 => force.tangential = DVec3::X * f64::INFINITY,
+                _ => force.couple = DVec3::Z * f64::NAN,
+            }
+        }
+        force
+    }
+}
+
+#[test]
+fn a_law_that_answers_nan_is_an_error_and_the_damper_goes_on_from_a_snapshot() {
+    for way in 0..3 {
+        let ball = paper_particle()
+            .at(dvec3(0.03, 0.004, 0.0))
+            .moving(DVec3::NEG_Y * 0.2);
+        let mut damper = Damper::builder(Slot::paper(), Failing { way, overlap: 4e-5 })
+            .particles([ball])
+            .time_step(1e-5)
+            .build()
+            .unwrap();
+        let good = damper.snapshot();
+        let error = (0..10_000).find_map(|_| damper.step().err());
+        let Some(StepError::NotFinite { particle: 0, .. }) = error else {
+            panic!("way {way}: {error:?}");
+        };
+        damper.restore(&good).unwrap();
+        steps(&mut damper, 100);
+        assert!(damper.particle(0).unwrap().velocity.y < -0.2);
+    }
+}
+
+/// A cavity that is a cuboid, but for the number of walls that are told: an error must name the wall
+/// that was crossed.
+#[test]
+fn an_escape_names_the_particle_and_the_wall() {
+    let room = Cuboid::new(dvec3(0.02, 0.02, 0.02)).unwrap();
+    let fast = paper_particle()
+        .at(DVec3::Y * 0.01)
+        .moving(DVec3::X * 500.0);
+    let mut damper = Damper::builder(room, HertzTsuji::new(Material::acrylic()))
+        .overlap_limit(f64::INFINITY)
+        .particles([paper_particle().at(dvec3(0.0, 0.004, 0.006)), fast])
+        .build()
+        .unwrap();
+    let error = (0..10_000).find_map(|_| damper.step().err()).unwrap();
+    let StepError::Escaped {
+        particle: 1, wall, ..
+    } = error
+    else {
+        panic!("{error}");
+    };
+    assert_eq!(wall, 1);
+}
