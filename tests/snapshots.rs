@@ -26,7 +26,7 @@ fn builder<L: ContactLaw>(law: L) -> Builder<Slot, L, Mount> {
     Damper::builder(Slot::paper(), law)
         .mount(SingleDof::paper().excited_by(excitation))
         .particles(bed())
-        .time_step(2e-5)
+        .time_step(1e-5)
 }
 
 fn damper() -> Damper<Slot, HertzMindlin, Mount, CellGrid, RungeKutta4> {
@@ -54,7 +54,7 @@ where
 /// A bed at rest on its floor, with springs stretched in its contacts.
 fn settled() -> Snapshot<TangentialSpring> {
     let mut damper = damper();
-    for _ in 0..8000 {
+    for _ in 0..16000 {
         damper.step().unwrap();
     }
     assert!(damper.contacts() > 5, "contacts are part of the state");
@@ -64,7 +64,7 @@ fn settled() -> Snapshot<TangentialSpring> {
 fn on_from(snapshot: &Snapshot<TangentialSpring>) -> Vec<u64> {
     let mut damper = damper();
     damper.restore(snapshot).unwrap();
-    for _ in 0..3000 {
+    for _ in 0..6000 {
         damper.step().unwrap();
     }
     bits(&damper)
@@ -88,7 +88,7 @@ fn a_new_process_goes_on_to_the_same_bits() {
     let snapshot = settled();
     let mut straight = damper();
     straight.restore(&snapshot).unwrap();
-    for _ in 0..3000 {
+    for _ in 0..6000 {
         straight.step().unwrap();
     }
     let path = std::env::temp_dir().join(format!("particle-damper-{}", std::process::id()));
@@ -112,11 +112,11 @@ fn a_new_process_goes_on_to_the_same_bits() {
 #[test]
 fn restoring_is_the_same_as_never_having_stopped() {
     let mut through = damper();
-    for _ in 0..8000 {
+    for _ in 0..16000 {
         through.step().unwrap();
     }
     let snapshot = through.snapshot();
-    for _ in 0..3000 {
+    for _ in 0..6000 {
         through.step().unwrap();
     }
     let text = serde_json::to_string(&snapshot).unwrap();
@@ -247,7 +247,7 @@ fn another_setup_is_refused_and_named() {
     };
     let other = "the snapshot is of a damper with another ";
     assert_eq!(
-        refused(builder(law()).time_step(1e-5)),
+        refused(builder(law()).time_step(5e-6)),
         format!("{other}time step")
     );
     assert_eq!(
