@@ -11,6 +11,8 @@ mod chart;
 mod choice;
 #[path = "support/output.rs"]
 mod output;
+#[path = "support/progress.rs"]
+mod progress;
 #[path = "support/spread.rs"]
 mod spread;
 
@@ -215,7 +217,7 @@ fn main() -> Result<(), Failure> {
     };
     let mut order: Vec<usize> = (0..jobs.len()).collect();
     order.sort_by(|a, b| steps(*b).total_cmp(&steps(*a)));
-    let bar = output::progress_bar(order.iter().map(|job| steps(*job) as u64).sum());
+    let bar = progress::bar(order.iter().map(|job| steps(*job) as u64).sum());
     let mut responses = vec![None; jobs.len()];
     spread::spread(
         &order,
@@ -270,6 +272,7 @@ fn draw(
     results: &[(usize, Response)],
 ) -> Result<(), Failure> {
     let mut lines = Vec::new();
+    let lone = options.frequencies(1).len() < 12;
     for (colour, &particles) in options.particles.iter().enumerate() {
         for (number, variant) in variants.iter().enumerate() {
             for (turn, &seed) in options.seeds.iter().enumerate() {
@@ -278,7 +281,7 @@ fn draw(
                     *variant == number && point.particles == particles && point.seed == seed
                 };
                 let label = format!(
-                    "N = {particles}, {}, {} s",
+                    "N = {particles}, {}, {:e} s",
                     name(variant.law),
                     variant.time_step
                 );
@@ -286,7 +289,7 @@ fn draw(
                     label: if turn == 0 { label } else { String::new() },
                     colour,
                     dash: [0, 8, 4, 2][number.min(3)],
-                    marked: false,
+                    marked: lone,
                     points: results
                         .iter()
                         .filter(of_line)

@@ -10,28 +10,28 @@ use plotters::prelude::*;
 
 /// One line of a chart.
 #[derive(Debug)]
-pub struct Line {
-    pub label: String,
+pub(crate) struct Line {
+    pub(crate) label: String,
     /// Number of the colour.
-    pub colour: usize,
+    pub(crate) colour: usize,
     /// Length of the dashes in pixels; zero draws the line through.
-    pub dash: i32,
+    pub(crate) dash: i32,
     /// Whether the points are marked.
-    pub marked: bool,
-    pub points: Vec<(f64, f64)>,
+    pub(crate) marked: bool,
+    pub(crate) points: Vec<(f64, f64)>,
 }
 
 /// The frame of a chart.
 #[derive(Debug)]
-pub struct Chart<'a> {
-    pub title: &'a str,
+pub(crate) struct Chart<'a> {
+    pub(crate) title: &'a str,
     /// What the axes show, with units.
-    pub axes: [&'a str; 2],
-    pub x: Range<f64>,
-    pub y: Range<f64>,
+    pub(crate) axes: [&'a str; 2],
+    pub(crate) x: Range<f64>,
+    pub(crate) y: Range<f64>,
     /// Whether the axes are logarithmic.
-    pub logarithmic: [bool; 2],
-    pub legend: SeriesLabelPosition,
+    pub(crate) logarithmic: [bool; 2],
+    pub(crate) legend: SeriesLabelPosition,
 }
 
 type Drawing<'a, X, Y> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>;
@@ -48,7 +48,7 @@ const COLOURS: [RGBColor; 6] = [
 ];
 
 impl Chart<'_> {
-    pub fn draw(&self, path: &Path, lines: &[Line]) -> Result<(), Failure> {
+    pub(crate) fn draw(&self, path: &Path, lines: &[Line]) -> Result<(), Failure> {
         let area = SVGBackend::new(path, (960, 640)).into_drawing_area();
         area.fill(&WHITE)?;
         let mut builder = ChartBuilder::on(&area);
@@ -58,14 +58,12 @@ impl Chart<'_> {
             .x_label_area_size(52)
             .y_label_area_size(68);
         let (x, y) = (self.x.clone(), self.y.clone());
+        let log = |range: Range<f64>| range.clone().log_scale().with_key_points(ticks(&range));
         match self.logarithmic {
             [false, false] => self.fill(builder.build_cartesian_2d(x, y)?, lines)?,
-            [false, true] => self.fill(builder.build_cartesian_2d(x, y.log_scale())?, lines)?,
-            [true, false] => self.fill(builder.build_cartesian_2d(x.log_scale(), y)?, lines)?,
-            [true, true] => self.fill(
-                builder.build_cartesian_2d(x.log_scale(), y.log_scale())?,
-                lines,
-            )?,
+            [false, true] => self.fill(builder.build_cartesian_2d(x, log(y))?, lines)?,
+            [true, false] => self.fill(builder.build_cartesian_2d(log(x), y)?, lines)?,
+            [true, true] => self.fill(builder.build_cartesian_2d(log(x), log(y))?, lines)?,
         }
         area.present()?;
         Ok(())
@@ -118,8 +116,31 @@ impl Chart<'_> {
     }
 }
 
+/// Round numbers for a logarithmic axis.
+fn ticks(range: &Range<f64>) -> Vec<f64> {
+    let decades = (range.end / range.start).log10();
+    let digits: &[u32] = if decades > 1.3 {
+        &[1, 2, 5]
+    } else {
+        &[1, 2, 3, 4, 6, 8]
+    };
+    let exponents = range.start.log10().floor() as i32..=range.end.log10().ceil() as i32;
+    exponents
+        .flat_map(|exponent| {
+            digits
+                .iter()
+                .map(move |&digit| f64::from(digit) * 10_f64.powi(exponent))
+        })
+        .filter(|tick| range.contains(tick))
+        .collect()
+}
+
 /// A number without the digits that rounding leaves behind.
 fn short(value: f64) -> String {
-    let text = format!("{value:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    let text = format!("{:.4}", value + 0.0);
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    text.strip_prefix("-")
+        .filter(|digits| *digits == "0")
+        .unwrap_or(text)
+        .to_owned()
 }

@@ -8,7 +8,7 @@ use particle_damper::{
 };
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum DetectorName {
+pub(crate) enum DetectorName {
     /// Linked cells inside a skin, the fastest.
     LinkedCells,
     /// Every pair.
@@ -20,7 +20,7 @@ pub enum DetectorName {
 }
 
 #[derive(Debug, Clone)]
-pub enum AnyDetector {
+pub(crate) enum AnyDetector {
     LinkedCells(Skin<LinkedCells>),
     AllPairs(AllPairs),
     CellGrid(CellGrid),
@@ -28,7 +28,7 @@ pub enum AnyDetector {
 
 impl DetectorName {
     /// The detector; `grid` is the number of cells up and across.
-    pub fn detector(self, grid: [usize; 2]) -> Result<AnyDetector, DetectorError> {
+    pub(crate) fn detector(self, grid: [usize; 2]) -> Result<AnyDetector, DetectorError> {
         let [up, across] = grid;
         Ok(match self {
             Self::LinkedCells => AnyDetector::LinkedCells(Skin::default()),
@@ -69,7 +69,7 @@ impl Detector for AnyDetector {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum IntegratorName {
+pub(crate) enum IntegratorName {
     /// One evaluation a step.
     Verlet,
     /// The paper's, four evaluations a step.
@@ -77,13 +77,13 @@ pub enum IntegratorName {
 }
 
 #[derive(Debug, Clone)]
-pub enum AnyIntegrator {
+pub(crate) enum AnyIntegrator {
     Verlet(VelocityVerlet),
     Rk4(RungeKutta4),
 }
 
 impl IntegratorName {
-    pub fn integrator(self) -> AnyIntegrator {
+    pub(crate) fn integrator(self) -> AnyIntegrator {
         match self {
             Self::Verlet => AnyIntegrator::Verlet(VelocityVerlet::default()),
             Self::Rk4 => AnyIntegrator::Rk4(RungeKutta4::default()),

@@ -7,7 +7,7 @@ use std::thread;
 
 /// Does `work` for the numbers in `order`, each taken by whichever thread is free, and tells
 /// `finished` on the calling thread as they come in. The first error ends it.
-pub fn spread<T: Send>(
+pub(crate) fn spread<T: Send>(
     order: &[usize],
     work: impl Fn(usize) -> Result<T, Box<dyn Error + Send + Sync>> + Sync,
     mut finished: impl FnMut(usize, T),

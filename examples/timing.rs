@@ -1,0 +1,192 @@
+//! The paper's Fig. 12 and Table 2: seconds of calculation for 5 s simulated, against the number of
+//! particles. Strict law with all pairs, approximate law with the cell grid, both at 20
+//! microseconds; approximate at 100 microseconds.
+//!
+//! `cargo run --release --example timing` leaves `target/timing/timing.csv` and `.svg`. One thread,
+//! about a minute; the machine should have nothing else to do.
+
+#[path = "support/chart.rs"]
+mod chart;
+#[path = "support/output.rs"]
+mod output;
+#[path = "support/progress.rs"]
+mod progress;
+
+use std::error::Error;
+use std::time::Instant;
+
+use chart::{Chart, Line};
+use clap::Parser;
+use indicatif::ProgressBar;
+use particle_damper::excitation::Harmonic;
+use particle_damper::{
+    AllPairs, CellGrid, ContactLaw, Damper, Detector, Filling, HertzTsuji, Integrator, Material,
+    Particle, RestitutionImpulse, RungeKutta4, SingleDof, Slot, VelocityVerlet,
+};
+use plotters::prelude::SeriesLabelPosition;
+
+type Failure = Box<dyn Error + Send + Sync>;
+
+/// Table 2: seconds on a Core 2 Duo of 3 GHz.
+const PUBLISHED: [(usize, f64, f64); 5] = [
+    (20, 4.4, 3.3),
+    (40, 16.6, 5.7),
+    (60, 37.3, 8.4),
+    (80, 62.5, 11.0),
+    (100, 97.2, 13.7),
+];
+
+/// Calculation time against the number of particles.
+#[derive(Debug, Parser)]
+struct Options {
+    /// Numbers of particles.
+    #[arg(long, value_delimiter = ',', default_value = "20,40,60,80,100")]
+    particles: Vec<usize>,
+    /// Simulated time in s; seconds are given for 5 s.
+    #[arg(long, default_value_t = 5.0)]
+    simulated: f64,
+    /// Frequency of the force in Hz.
+    #[arg(long, default_value_t = 6.0)]
+    frequency: f64,
+    /// Simulates 0.2 s.
+    #[arg(long)]
+    quick: bool,
+}
+
+impl Options {
+    fn simulated(&self) -> f64 {
+        if self.quick { 0.2 } else { self.simulated }
+    }
+
+    /// Seconds of calculation for 5 s simulated.
+    fn seconds<L: ContactLaw, D: Detector + Clone, I: Integrator>(
+        &self,
+        parts: (L, D, I),
+        time_step: f64,
+        particles: usize,
+        bar: &ProgressBar,
+    ) -> Result<f64, Failure> {
+        let (law, detector, integrator) = parts;
+        let sphere = Particle::new(3e-3, 0.2e-3)?;
+        let mut damper = Damper::builder(Slot::paper(), law)
+            .mount(SingleDof::paper().excited_by(Harmonic::new(0.25, self.frequency)?))
+            .detector(detector)
+            .integrator(integrator)
+            .particles(
+                Filling::new(1)
+                    .with(particles, sphere)
+                    .fill(&Slot::paper())?,
+            )
+            .time_step(time_step)
+            .build()?;
+        let steps = (self.simulated() / time_step).round() as u64;
+        let start = Instant::now();
+        for _ in 0..steps {
+            damper.step()?;
+        }
+        let seconds = start.elapsed().as_secs_f64() * 5.0 / self.simulated();
+        bar.inc(particles as u64);
+        Ok(seconds)
+    }
+}
+
+/// Slope of the straight line through the logarithms, by least squares.
+fn slope(points: &[(f64, f64)]) -> f64 {
+    let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
+    let count = logs.len() as f64;
+    let mean_x = logs.iter().map(|log| log.0).sum::<f64>() / count;
+    let mean_y = logs.iter().map(|log| log.1).sum::<f64>() / count;
+    let covariance: f64 = logs.iter().map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
+    let variance: f64 = logs.iter().map(|(x, _)| (x - mean_x).powi(2)).sum();
+    covariance / variance
+}
+
+fn main() -> Result<(), Failure> {
+    let options = Options::parse();
+    let acrylic = Material::acrylic();
+    let strict = || (HertzTsuji::new(acrylic), AllPairs, RungeKutta4::default());
+    let approximate = || {
+        let law = RestitutionImpulse::new(acrylic);
+        (law, CellGrid::paper(), VelocityVerlet::default())
+    };
+    let names = [
+        "strict, all pairs, dt 2e-5 s",
+        "approximate, grid, dt 2e-5 s",
+        "approximate, grid, dt 1e-4 s",
+    ];
+    let mut curves = [const { Vec::new() }; 3];
+    let bar = progress::bar(3 * options.particles.iter().sum::<usize>() as u64);
+    for &particles in &options.particles {
+        let seconds = [
+            options.seconds(strict(), 2e-5, particles, &bar)?,
+            options.seconds(approximate(), 2e-5, particles, &bar)?,
+            options.seconds(approximate(), 1e-4, particles, &bar)?,
+        ];
+        for (curve, seconds) in curves.iter_mut().zip(seconds) {
+            curve.push((particles as f64, seconds));
+        }
+    }
+    bar.finish_and_clear();
+
+    println!("seconds for 5 s simulated");
+    println!(
+        "  N   strict  approximate  ratio  approximate, 1e-4 s   published: strict, approximate"
+    );
+    for (row, &particles) in options.particles.iter().enumerate() {
+        let [strict, fine, coarse] = [0, 1, 2].map(|curve| curves[curve][row].1);
+        let published = PUBLISHED.iter().find(|published| published.0 == particles);
+        let published = published.map_or_else(String::new, |(_, s, a)| format!("{s:.1}, {a:.1}"));
+        println!(
+            "{particles:3} {strict:8.3} {fine:12.3} {:6.1} {coarse:20.3}   {published}",
+            strict / fine
+        );
+    }
+    for (name, curve) in names.iter().zip(&curves) {
+        println!("{name}: N^{:.2}", slope(curve));
+    }
+
+    let directory = output::directory("timing")?;
+    let rows = options
+        .particles
+        .iter()
+        .enumerate()
+        .map(|(row, particles)| {
+            let [strict, fine, coarse] = [0, 1, 2].map(|curve| curves[curve][row].1);
+            format!(
+                "{particles},{strict:.4},{fine:.4},{coarse:.4},{:.2}",
+                strict / fine
+            )
+        });
+    let columns = "particles,strict_s,approximate_s,approximate_coarse_s,ratio";
+    output::write_table(&directory.join("timing.csv"), columns, rows)?;
+    draw(&options, &names, &curves)
+}
+
+fn draw(options: &Options, names: &[&str], curves: &[Vec<(f64, f64)>]) -> Result<(), Failure> {
+    let lines: Vec<Line> = names
+        .iter()
+        .zip(curves)
+        .enumerate()
+        .map(|(number, (name, points))| Line {
+            label: format!("{name}: N^{:.2}", slope(points)),
+            colour: number + 1,
+            dash: 0,
+            marked: true,
+            points: points.clone(),
+        })
+        .collect();
+    let seconds = || curves.iter().flatten().map(|point| point.1);
+    let counts = || options.particles.iter().map(|count| *count as f64);
+    let path = output::directory("timing")?.join("timing.svg");
+    Chart {
+        title: "Calculation time for 5 s simulated",
+        axes: ["number of particles N", "time (s)"],
+        x: 0.9 * counts().fold(f64::INFINITY, f64::min)..1.1 * counts().fold(0.0, f64::max),
+        y: 0.5 * seconds().fold(f64::INFINITY, f64::min)..3.0 * seconds().fold(0.0, f64::max),
+        logarithmic: [true; 2],
+        legend: SeriesLabelPosition::UpperLeft,
+    }
+    .draw(&path, &lines)?;
+    output::say_where("picture", &path);
+    Ok(())
+}
