@@ -24,6 +24,7 @@ mod error;
 mod impulse;
 mod particles;
 mod scene;
+mod setup;
 mod snapshot;
 mod view;
 
@@ -37,6 +38,7 @@ const MOST_STEPS: f64 = 1e9;
 
 use clock::Clock;
 use engine::{Engine, Step};
+use setup::Setup;
 
 /// What a particle touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,6 +80,7 @@ pub struct Damper<C, L: ContactLaw, M, D, I = VelocityVerlet> {
     integrator: I,
     clock: Clock,
     time_step: f64,
+    setup: Setup,
 }
 
 impl<C, L, M, D, I> Damper<C, L, M, D, I>

@@ -7,6 +7,7 @@ use super::engine::{Engine, MountState, Scratch};
 use super::error::BuildError;
 use super::particles::Particles;
 use super::scene::{Room, WallLoad, World};
+use super::setup::Setup;
 use super::{Damper, smallest_radius};
 use crate::cavity::Cavity;
 use crate::detector::{Bed, Detector, LinkedCells, Skin};
@@ -240,6 +241,7 @@ where
         };
         engine.start(self.initial_overlap * smallest)?;
         Ok(Damper {
+            setup: Setup::new(&engine, time_step),
             engine,
             integrator: self.integrator,
             clock: Clock::default(),

@@ -14,6 +14,12 @@ impl Clock {
         self.epoch + self.steps as f64 * self.step
     }
 
+    /// Whether a clock can show this.
+    pub(crate) const fn is_sound(&self) -> bool {
+        // Beyond 2^53 steps the count would no longer be exact.
+        self.steps < 1 << 53 && self.time().is_finite() && self.step >= 0.0
+    }
+
     pub(crate) const fn advance(&mut self, step: f64) {
         if step.to_bits() == self.step.to_bits() {
             self.steps += 1;

@@ -5,22 +5,49 @@ use glam::DVec3;
 use super::Damper;
 use super::candidates::Remembered;
 use super::clock::Clock;
-use super::engine::MountState;
+use super::engine::{Engine, MountState};
 use super::error::StepError;
 use super::scene::WallLoad;
+use super::setup::Setup;
 use crate::cavity::Cavity;
-use crate::contact::Body;
 use crate::detector::Detector;
 use crate::integrator::Integrator;
 use crate::law::ContactLaw;
 use crate::mount::{Motion, Mount};
 
+/// Number of the layout of [`Snapshot`], which changes with it.
+const VERSION: u32 = 1;
+
 /// The state of a damper whose contacts remember `Memory`: particles, contact memory, mount and time.
 /// A damper that is restored from it goes on to the same bits.
+///
+/// With the feature `serde` it can be written and read, in any format that keeps every bit of an
+/// `f64` (JSON does with `serde_json`'s `float_roundtrip`). It carries the number of its layout and
+/// a fingerprint of the setup: particles, cavities, law, time step, gravity, and how the mount yields.
+/// What drives the mount, the integrator and the detector are free to differ, so that a settled bed
+/// can be the start of many runs; to go on to the same bits, keep excitation and integrator.
+///
+/// ```
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// use particle_damper::{Damper, HertzTsuji, Material, Motion, Particle, Slot, glam::DVec3};
+///
+/// let mut damper = Damper::builder(Slot::paper(), HertzTsuji::new(Material::acrylic()))
+///     .particles([Particle::new(3e-3, 2e-4)?.at(DVec3::new(0.05, 0.01, 0.0))])
+///     .build()?;
+/// let before = damper.snapshot();
+/// let up = |height: f64| Motion { position: DVec3::Y * height, velocity: DVec3::Y };
+/// let first = damper.drive(up(1e-3), 2e-3)?;
+/// damper.restore(&before)?;
+/// assert_eq!(damper.drive(up(1e-3), 2e-3)?, first);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Snapshot<Memory> {
+    version: u32,
+    setup: Setup,
     clock: Clock,
-    kinds: Vec<Body>,
     species: Vec<u32>,
     number: Vec<u32>,
     position: Vec<DVec3>,
@@ -39,7 +66,15 @@ pub struct Snapshot<Memory> {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RestoreError {
-    /// The snapshot is of a damper that is set up otherwise.
+    /// The snapshot was written by a version of this library that lays it out otherwise.
+    #[error("the snapshot has layout {found}, this version of the library reads {expected}")]
+    Version {
+        /// The layout that this version reads.
+        expected: u32,
+        /// The layout of the snapshot.
+        found: u32,
+    },
+    /// The snapshot is of a damper with another number of something.
     #[error("the snapshot has {found} {quantity}, the damper {expected}")]
     Mismatch {
         /// What was counted.
@@ -49,12 +84,132 @@ pub enum RestoreError {
         /// How many the snapshot has.
         found: usize,
     },
-    /// The snapshot's particles are not those of the damper.
-    #[error("the snapshot's particles have other radii, masses, materials or cavities")]
-    OtherParticles,
-    /// The snapshot's state cannot be used.
+    /// The snapshot is of a damper that is set up otherwise.
+    #[error("the snapshot is of a damper with another {quantity}")]
+    OtherSetup {
+        /// What differs.
+        quantity: &'static str,
+    },
+    /// The snapshot was damaged: no damper has such a state.
+    #[error("the snapshot is damaged: its {quantity} cannot be")]
+    Damaged {
+        /// What is wrong in it.
+        quantity: &'static str,
+    },
+    /// The contacts cannot be taken up again. The damper has to be restored from another snapshot.
     #[error(transparent)]
     State(#[from] StepError),
+}
+
+impl RestoreError {
+    /// `Ok` if the damper and the snapshot have as many of a `quantity`.
+    const fn count(quantity: &'static str, expected: usize, found: usize) -> Result<(), Self> {
+        if expected == found {
+            return Ok(());
+        }
+        Err(Self::Mismatch {
+            quantity,
+            expected,
+            found,
+        })
+    }
+
+    /// `Ok` if a `quantity` of the snapshot is `sound`.
+    const fn sound(quantity: &'static str, sound: bool) -> Result<(), Self> {
+        if sound {
+            return Ok(());
+        }
+        Err(Self::Damaged { quantity })
+    }
+}
+
+impl<Memory> Snapshot<Memory> {
+    /// Simulated time in s.
+    #[must_use]
+    pub const fn time(&self) -> f64 {
+        self.clock.time()
+    }
+
+    /// Refuses what does not fit into `engine`, and what cannot be.
+    fn check<C, L, M, D>(&self, engine: &Engine<C, L, M, D>) -> Result<(), RestoreError>
+    where
+        C: Cavity,
+        L: ContactLaw<Memory = Memory>,
+        M: Mount,
+        D: Detector,
+    {
+        let count = engine.particles.len();
+        let cavities = engine.world.rooms.len();
+        let coordinates = engine.mount_state.position.len();
+        RestoreError::count("particles", count, self.number.len())?;
+        RestoreError::count("cavities", cavities, self.containers.len())?;
+        RestoreError::count("walls", engine.wall_loads.len(), self.wall_loads.len())?;
+        RestoreError::count("mount coordinates", coordinates, self.mount.position.len())?;
+
+        let columns = [
+            ("positions", &self.position),
+            ("velocities", &self.velocity),
+            ("spins", &self.spin),
+            ("accelerations", &self.acceleration),
+            ("angular accelerations", &self.angular_acceleration),
+        ];
+        for (quantity, column) in columns {
+            RestoreError::count(quantity, count, column.len())?;
+            let finite = column.iter().all(|vector| vector.is_finite());
+            RestoreError::sound(quantity, finite)?;
+        }
+        RestoreError::count("species", count, self.species.len())?;
+        RestoreError::count("loads", cavities, self.loads.len())?;
+        let mount = &self.mount;
+        for column in [&mount.position, &mount.velocity, &mount.acceleration] {
+            RestoreError::count("mount coordinates", coordinates, column.len())?;
+            let finite = column.iter().all(|value| value.is_finite());
+            RestoreError::sound("mount coordinates", finite)?;
+        }
+        RestoreError::sound("clock", self.clock.is_sound())?;
+        let moving = |motion: &Motion| motion.position.is_finite() && motion.velocity.is_finite();
+        RestoreError::sound("containers", self.containers.iter().all(moving))?;
+        let loaded = |load: &WallLoad| load.force.is_finite() && load.torque.is_finite();
+        RestoreError::sound("wall loads", self.wall_loads.iter().all(loaded))?;
+        RestoreError::sound("loads", self.loads.iter().all(|load| load.is_finite()))?;
+        self.check_numbers(engine)?;
+        self.check_memory(count, engine.wall_loads.len())
+    }
+
+    /// Refuses numbers that are not each particle's once, in a slot of its own cavity.
+    fn check_numbers<C, L, M, D>(&self, engine: &Engine<C, L, M, D>) -> Result<(), RestoreError>
+    where
+        L: ContactLaw<Memory = Memory>,
+    {
+        let particles = &engine.particles;
+        let mut seen = vec![false; particles.len()];
+        for (slot, (number, species)) in self.number.iter().zip(&self.species).enumerate() {
+            let number = *number as usize;
+            let own = seen
+                .get_mut(number)
+                .is_some_and(|seen| !std::mem::replace(seen, true));
+            RestoreError::sound("particle numbers", own)?;
+            let now = particles.slot[number] as usize;
+            let at_home = engine.world.cavity_of(slot) == engine.world.cavity_of(now);
+            RestoreError::sound("particle numbers", at_home)?;
+            RestoreError::sound("species", particles.species[now] == *species)?;
+        }
+        Ok(())
+    }
+
+    /// Refuses memories of contacts that do not exist, or that are out of order.
+    fn check_memory(&self, particles: usize, walls: usize) -> Result<(), RestoreError> {
+        let [pairs, others] = &self.memory;
+        let paired = |contact: &Remembered<Memory>| {
+            contact.first < contact.second && (contact.second as usize) < particles
+        };
+        let walled = |contact: &Remembered<Memory>| {
+            (contact.first as usize) < particles && (contact.second as usize) < walls
+        };
+        let rising = |list: &[Remembered<Memory>]| list.is_sorted_by(|a, b| a.key() < b.key());
+        let sound = pairs.iter().all(paired) && others.iter().all(walled);
+        RestoreError::sound("contacts", sound && rising(pairs) && rising(others))
+    }
 }
 
 impl<C, L, M, D, I> Damper<C, L, M, D, I>
@@ -71,8 +226,9 @@ where
         let engine = &self.engine;
         let particles = &engine.particles;
         Snapshot {
+            version: VERSION,
+            setup: self.setup,
             clock: self.clock,
-            kinds: particles.kinds.clone(),
             species: particles.species.clone(),
             number: particles.number.clone(),
             position: particles.position.clone(),
@@ -91,61 +247,20 @@ where
     /// Puts the damper into the state of `snapshot`, from which it goes on to the same bits.
     ///
     /// # Errors
-    /// If the snapshot is of a damper that is set up otherwise; the damper is then as before.
+    /// If the snapshot is of another version or setup, or is damaged; the damper is then as before.
     pub fn restore(&mut self, snapshot: &Snapshot<L::Memory>) -> Result<(), RestoreError> {
+        if snapshot.version != VERSION {
+            return Err(RestoreError::Version {
+                expected: VERSION,
+                found: snapshot.version,
+            });
+        }
         let engine = &mut self.engine;
-        let (count, cavities) = (engine.particles.len(), engine.world.rooms.len());
-        let coordinates = engine.mount_state.position.len();
-        for (quantity, expected, found) in [
-            ("particles", count, snapshot.number.len()),
-            ("kinds of particles", count, snapshot.species.len()),
-            ("positions", count, snapshot.position.len()),
-            ("velocities", count, snapshot.velocity.len()),
-            ("spins", count, snapshot.spin.len()),
-            ("accelerations", count, snapshot.acceleration.len()),
-            (
-                "angular accelerations",
-                count,
-                snapshot.angular_acceleration.len(),
-            ),
-            (
-                "mount coordinates",
-                coordinates,
-                snapshot.mount.position.len(),
-            ),
-            ("mount rates", coordinates, snapshot.mount.velocity.len()),
-            (
-                "mount accelerations",
-                coordinates,
-                snapshot.mount.acceleration.len(),
-            ),
-            ("cavities", cavities, snapshot.containers.len()),
-            ("loads", cavities, snapshot.loads.len()),
-            ("walls", engine.wall_loads.len(), snapshot.wall_loads.len()),
-        ] {
-            if expected != found {
-                return Err(RestoreError::Mismatch {
-                    quantity,
-                    expected,
-                    found,
-                });
-            }
+        snapshot.check(engine)?;
+        if let Some(quantity) = self.setup.difference(&snapshot.setup) {
+            return Err(RestoreError::OtherSetup { quantity });
         }
-        let (particles, world) = (&mut engine.particles, &engine.world);
-        let mut places = snapshot.number.iter().zip(&snapshot.species).enumerate();
-        let same = places.all(|(place, (number, species))| {
-            let slot = particles
-                .slot
-                .get(*number as usize)
-                .map(|slot| *slot as usize);
-            slot.is_some_and(|slot| {
-                particles.species[slot] == *species
-                    && world.cavity_of(slot) == world.cavity_of(place)
-            })
-        });
-        if particles.kinds != snapshot.kinds || !same {
-            return Err(RestoreError::OtherParticles);
-        }
+        let particles = &mut engine.particles;
         particles.rearrange(&snapshot.number);
         particles.position.clone_from(&snapshot.position);
         particles.velocity.clone_from(&snapshot.velocity);

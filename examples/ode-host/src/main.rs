@@ -1,0 +1,128 @@
+//! A damper under an ODE solver that chooses its own steps (Dormand-Prince 5(4)).
+//!
+//! The solver takes a step under the force that the grains are thought to exert. The damper follows,
+//! and answers with the force it exerts. Until the two agree the damper goes back to the start of the
+//! step and the step is taken again, with the new force, and if that does not help, with half the
+//! length. The swing decays faster than with the grains' weight fixed; the program fails if it does
+//! not.
+//!
+//! Run: `cargo run --manifest-path examples/ode-host/Cargo.toml`
+
+use std::error::Error;
+use std::process::ExitCode;
+
+use differential_equations::methods::ExplicitRungeKutta;
+use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
+use differential_equations::status::Status;
+use particle_damper::glam::DVec3;
+use particle_damper::{
+    Damper, Driven, Filling, Material, Motion, Particle, RestitutionImpulse, Slot,
+};
+
+const STIFFNESS: f64 = 123.4; // N/m
+const DAMPING: f64 = 0.08; // N s/m
+const RELEASE: f64 = 0.02; // m
+const DURATION: f64 = 2.0; // s
+const LONGEST: f64 = 2e-3; // s between two meetings of host and damper
+const SHORTEST: f64 = 1e-4; // s
+const TOLERANCE: f64 = 1e-4; // m/s that the wrong force may add in a step
+
+/// M x" + C x' + K x = force, counted from where spring and weight balance.
+struct Oscillator {
+    mass: f64,
+    force: f64,
+}
+
+impl ODE<f64, [f64; 2]> for Oscillator {
+    fn diff(&self, _time: f64, y: &[f64; 2], rate: &mut [f64; 2]) {
+        *rate = [
+            y[1],
+            (self.force - STIFFNESS * y[0] - DAMPING * y[1]) / self.mass,
+        ];
+    }
+}
+
+/// One accepted step of the solver, `h` long at the most: its length, the state at its end, and how
+/// many tries the solver itself rejected.
+fn step(system: &Oscillator, y: [f64; 2], h: f64) -> Result<(f64, [f64; 2], u32), Box<dyn Error>> {
+    let mut solver = ExplicitRungeKutta::dopri5().rtol(1e-8).atol(1e-10).h0(h);
+    let failed = |error| format!("{error:?}");
+    solver.init(system, 0.0, h, &y).map_err(failed)?;
+    let mut rejected = 0;
+    loop {
+        solver.step(system).map_err(failed)?;
+        match solver.status() {
+            Status::RejectedStep => rejected += 1,
+            _ => return Ok((solver.t(), *solver.y(), rejected)),
+        }
+    }
+}
+
+fn motion(y: [f64; 2]) -> Motion {
+    Motion {
+        position: DVec3::Y * y[0],
+        velocity: DVec3::Y * y[1],
+    }
+}
+
+/// The largest displacement over the last fifth of a swing with `grains` loose in a container, and
+/// how many steps were taken and taken back.
+fn swing(mass: f64, grains: usize) -> Result<(f64, u32, u32), Box<dyn Error>> {
+    let filling = Filling::new(1).with(grains, Particle::new(3e-3, 0.2e-3)?);
+    let weight = 0.2e-3 * 9.81 * grains as f64;
+    let (mut time, mut y) = (0.0, [RELEASE, 0.0]);
+    let mut damper = Damper::builder(Slot::paper(), RestitutionImpulse::new(Material::acrylic()))
+        .mount(Driven::at(motion(y)))
+        .particles(filling.fill(&Slot::paper())?)
+        .time_step(1e-4)
+        .build()?;
+    let mut oscillator = Oscillator { mass, force: 0.0 };
+    let (mut h, mut taken, mut back) = (LONGEST, 0, 0);
+    let mut largest = 0.0_f64;
+    while time < DURATION {
+        let before = damper.snapshot();
+        let mut tries = 0;
+        loop {
+            let (length, end, rejected) = step(&oscillator, y, h)?;
+            let reaction = damper.drive(motion(end), length)?;
+            let force = reaction.impulse.y / length + weight;
+            let error = (force - oscillator.force).abs() * length / mass;
+            oscillator.force = force;
+            back += rejected;
+            tries += 1;
+            if error <= TOLERANCE || length <= SHORTEST {
+                (time, y, taken) = (time + length, end, taken + 1);
+                break;
+            }
+            damper.restore(&before)?;
+            back += 1;
+            if tries % 4 == 0 {
+                h = (0.5 * length).max(SHORTEST);
+            }
+        }
+        h = if tries < 4 { (1.5 * h).min(LONGEST) } else { h };
+        if time > 0.8 * DURATION {
+            largest = largest.max(y[0].abs());
+        }
+    }
+    Ok((largest, taken, back))
+}
+
+fn main() -> Result<ExitCode, Box<dyn Error>> {
+    let (loose, taken, back) = swing(0.086, 60)?;
+    let (fixed, ..) = swing(0.086 + 60.0 * 0.2e-3, 0)?;
+    println!(
+        "let go {:.1} mm from rest; {DURATION} s later",
+        RELEASE * 1e3
+    );
+    println!(
+        "  grains loose: {:.3} mm ({taken} steps, {back} taken back)",
+        loose * 1e3
+    );
+    println!("  grains fixed: {:.3} mm", fixed * 1e3);
+    if loose < 0.8 * fixed && back > 0 {
+        return Ok(ExitCode::SUCCESS);
+    }
+    eprintln!("the swing should decay faster with grains than with their weight");
+    Ok(ExitCode::FAILURE)
+}
