@@ -235,7 +235,7 @@ where
     /// How many contacts there were when they were evaluated last, walls included.
     #[must_use]
     pub fn contacts(&self) -> usize {
-        self.engine.contacts()
+        View::contacts(&self.engine)
     }
 
     /// The largest overlap in m when contacts were evaluated last.

@@ -789,12 +789,12 @@ fn restoring_another_set_up_is_refused_and_changes_nothing() {
         let built = Damper::builder(Slot::paper(), law()).particles(bed).build();
         built.unwrap().snapshot()
     };
-    let is = |error: &RestoreError| *error == RestoreError::OtherParticles;
+    let is = |error: &RestoreError| matches!(error, RestoreError::OtherSetup { .. });
     for change in [
         |p: Particle| Particle::new(2e-3, p.mass).unwrap().at(p.position),
         |p: Particle| Particle::new(p.radius, 1e-3).unwrap().at(p.position),
     ] {
-        table.row(damper.restore(&other(change)), is, &["other radii, masses"]);
+        table.row(damper.restore(&other(change)), is, &["another bed"]);
     }
     let round = Damper::builder(Disc::new(0.05).unwrap(), law())
         .particles([at(0.01), at(0.03)])
