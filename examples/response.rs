@@ -79,7 +79,7 @@ struct Options {
     /// Seeds of the initial fillings.
     #[arg(long, value_delimiter = ',', default_value = "1")]
     seeds: Vec<u64>,
-    /// Periods discarded; unless given 20, and without particles 9 time constants of the oscillator.
+    /// Periods discarded; unless given 20, and without particles 14 time constants of the oscillator.
     #[arg(long)]
     discarded: Option<u32>,
     /// Periods averaged.
@@ -172,7 +172,7 @@ impl Options {
         let discarded = match self.discarded {
             Some(periods) => periods,
             None if self.quick => 5,
-            None if point.particles == 0 => (20.0 * point.frequency).ceil() as u32,
+            None if point.particles == 0 => (30.0 * point.frequency).ceil() as u32,
             None => 20,
         };
         let grid = [self.grid[0], self.grid[1]];
