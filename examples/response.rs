@@ -189,7 +189,7 @@ impl Options {
 type Failure = Box<dyn Error + Send + Sync>;
 
 /// The name by which an option knows a value.
-fn name(value: impl ValueEnum) -> String {
+fn name(value: &impl ValueEnum) -> String {
     value
         .to_possible_value()
         .map_or_else(String::new, |value| value.get_name().to_owned())
@@ -248,9 +248,9 @@ fn row(options: &Options, variant: Variant, response: &Response) -> String {
     } = response.point;
     format!(
         "{},{},{},{},{particles},{seed},{frequency},{:.6},{:.6},{:.6},{:.4e},{}",
-        name(variant.law),
-        name(options.integrator),
-        name(options.detector),
+        name(&variant.law),
+        name(&options.integrator),
+        name(&options.detector),
         variant.time_step,
         response.rms_zero,
         response.rms_mean,
@@ -277,7 +277,7 @@ fn draw(
                 };
                 let label = format!(
                     "N = {particles}, {}, {:e} s",
-                    name(variant.law),
+                    name(&variant.law),
                     variant.time_step
                 );
                 lines.push(Line {
