@@ -121,6 +121,8 @@ where
         let impulsive = self.engine.world.law.evaluation() != Evaluation::EveryStage;
         if impulsive {
             self.engine.strike(dt, observer)?;
+        } else {
+            self.engine.start_step();
         }
         let mut step = Step {
             begin: self.clock.time(),
