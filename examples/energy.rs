@@ -1,5 +1,5 @@
-//! Where the energy goes: the share of the excitation's work that the structure's damping, impacts
-//! and friction take, against frequency, for the paper's damper with 20 particles.
+//! Where the energy goes: the shares that the structure's damping, impacts and friction have in what
+//! is lost, against frequency, for the paper's damper with 20 particles.
 //!
 //! `cargo run --release --example energy` leaves `target/energy/energy.csv` and `.svg`.
 
@@ -65,19 +65,19 @@ fn main() -> Result<(), Failure> {
             losses.wall_normal,
             losses.wall_friction,
         ];
-        let input = ledger.input();
-        let power = input * frequency / f64::from(counted);
-        let shares = sinks.map(|sink| 100.0 * sink / input);
+        let lost: f64 = sinks.iter().sum();
+        let power = lost * frequency / f64::from(counted);
+        let shares = sinks.map(|sink| 100.0 * sink / lost);
         for ((_, points), share) in lines.iter_mut().zip(shares) {
             points.push((frequency, share));
         }
         let shares = shares.map(|share| format!("{share:.3}")).join(",");
-        let unaccounted = ledger.residual() / input;
+        let unaccounted = ledger.residual() / lost;
         println!("{frequency:5.3} Hz  {power:.3e} W  {shares} %  unaccounted {unaccounted:.1e}");
         rows.push(format!("{frequency},{power},{shares}"));
     }
     let directory = output::directory("energy")?;
-    let columns = format!("frequency (Hz),input (W),{} (%)", SINKS.join(" (%),"));
+    let columns = format!("frequency (Hz),lost (W),{} (%)", SINKS.join(" (%),"));
     output::write_table(&directory.join("energy.csv"), &columns, rows)?;
     let lines = lines
         .into_iter()
@@ -90,8 +90,8 @@ fn main() -> Result<(), Failure> {
             points,
         });
     let chart = Chart {
-        title: "Where the work of the excitation goes",
-        axes: ["frequency (Hz)", "share (%)"],
+        title: "Where the energy goes",
+        axes: ["frequency (Hz)", "share of the loss (%)"],
         x: 4.0..8.0,
         y: 0.0..100.0,
         logarithmic: [false, false],

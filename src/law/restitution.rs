@@ -32,7 +32,8 @@ const REACH: f64 = 2.0;
 ///   overlap within one step, whichever is larger: resting particles come out of each other again,
 ///   and no impact gains energy by it.
 /// - Coulomb friction: the tangential impulse ends the slip if it can, and is mu J otherwise; it
-///   turns the particles.
+///   turns the particles. Where the materials resist rolling, a couple of at most `mu_r r* J` does so;
+///   the two are found together, so that what they can hold rests.
 ///
 /// [`literal`](Self::literal) is the paper's form.
 #[derive(Debug, Clone, PartialEq)]
