@@ -1,6 +1,8 @@
 //! Rolling resistance on an incline: a constant couple, rolling friction coefficient times normal
 //! force times radius.
 
+#![allow(clippy::unwrap_used)]
+
 use particle_damper::cavity::Slot;
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::{
@@ -19,8 +21,8 @@ fn material() -> Material {
     Material::new(0.4e9, 0.3, interaction).unwrap()
 }
 
-/// Speed and surface slip of a sphere that lay on a floor of `slope` for `settle` seconds, and then
-/// was watched for `time`: speed gained, and slip at the end.
+/// A sphere rolls at `start` (m/s) down a floor of `slope`: its speed after 0.3 s, its acceleration
+/// over the last 0.2 s, and the slip of its surface at the end.
 fn down<L: ContactLaw>(law: L, time_step: f64, slope: f64, start: f64) -> (f64, f64, f64) {
     let angle = slope.atan();
     let normal = GRAVITY * angle.cos();
@@ -57,10 +59,16 @@ fn theory(slope: f64) -> f64 {
     5.0 / 7.0 * GRAVITY * (angle.sin() - ROLLING * angle.cos())
 }
 
+/// `creep` is the speed that is allowed at rest, over g sin times the time step.
 fn holds_on_an_incline<L: ContactLaw + Clone>(law: &L, time_step: f64, creep: f64) {
     for slope in [0.02, 0.05, 0.09] {
         let (speed, _, _) = down(law.clone(), time_step, slope, 0.0);
-        assert!(speed.abs() < creep, "slope {slope}: creeps at {speed} m/s");
+        let pull = GRAVITY * slope.atan().sin() * time_step;
+        assert!(
+            speed.abs() <= creep * pull,
+            "slope {slope}: creeps at {} g sin dt",
+            speed / pull
+        );
     }
     for slope in [0.12, 0.2, 0.4] {
         let (_, acceleration, slip) = down(law.clone(), time_step, slope, 0.0);
@@ -80,17 +88,21 @@ fn holds_on_an_incline<L: ContactLaw + Clone>(law: &L, time_step: f64, creep: f6
     );
 }
 
+/// Without memory, slip and spin are resisted in proportion below what a step could stop: they fade
+/// at 7 mu f_n dt / m and 5 mu_r f_n dt / (m r), and rest is a creep of (7 + 5) g sin dt.
 #[test]
 fn a_sphere_stays_or_rolls_under_the_strict_law() {
-    holds_on_an_incline(&HertzTsuji::new(material()), 1e-5, 1e-4);
+    holds_on_an_incline(&HertzTsuji::new(material()), 1e-5, 12.01);
+    holds_on_an_incline(&HertzTsuji::new(material()), 5e-6, 12.01);
 }
 
+/// A tangential spring does not creep; the rolling couple does.
 #[test]
 fn a_sphere_stays_or_rolls_under_the_strict_law_with_a_tangential_spring() {
-    holds_on_an_incline(&HertzMindlin::new(material()), 1e-5, 1e-4);
+    holds_on_an_incline(&HertzMindlin::new(material()), 1e-5, 5.01);
 }
 
 #[test]
 fn a_sphere_stays_or_rolls_under_the_impulse_law() {
-    holds_on_an_incline(&RestitutionImpulse::new(material()), 1e-4, 1e-4);
+    holds_on_an_incline(&RestitutionImpulse::new(material()), 1e-4, 0.01);
 }

@@ -32,7 +32,8 @@ const REACH: f64 = 2.0;
 ///   overlap within one step, whichever is larger: resting particles come out of each other again,
 ///   and no impact gains energy by it.
 /// - Coulomb friction: the tangential impulse ends the slip if it can, and is mu J otherwise; it
-///   turns the particles.
+///   turns the particles. Where the materials resist rolling, a couple of at most `mu_r r* J` does so;
+///   the two are found together, so that what they can hold rests.
 ///
 /// [`literal`](Self::literal) is the paper's form.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,6 +57,8 @@ pub struct RestitutionCoefficients {
     turning: f64,
     /// Sum of the inverse moments of inertia, 1/(kg m^2).
     inverse_inertia: f64,
+    /// Relative spin per unit tangential impulse, and slip per unit angular impulse, in 1/(kg m).
+    coupling: f64,
     smaller_radius: f64,
 }
 
@@ -101,6 +104,28 @@ impl RestitutionImpulse {
     }
 }
 
+impl RestitutionCoefficients {
+    /// Tangential and angular impulse that end slip and rolling together, as far as `impulse` (N s)
+    /// along the normal lets friction and rolling resistance reach. `yielding` is slip per unit
+    /// tangential impulse in 1/kg.
+    fn roll(&self, contact: &Contact, slip: DVec3, yielding: f64, impulse: f64) -> [DVec3; 2] {
+        let (across, along) = (self.friction * impulse, self.rolling_arm * impulse);
+        let (normal, coupling) = (contact.normal, self.coupling);
+        // Spins and couples turned into the tangent plane: a quarter turn about the normal.
+        let rolling = (contact.spins[0] - contact.spins[1]).cross(normal);
+        let determinant = yielding * self.inverse_inertia - coupling * coupling;
+        let stop = -(slip * coupling + rolling * yielding) / determinant;
+        let mut turn = stop.clamp_length_max(along);
+        let mut push = (turn * coupling - slip) / yielding;
+        if push.length() > across {
+            push = push.clamp_length_max(across);
+            turn = (push * coupling - rolling) / self.inverse_inertia;
+            turn = turn.clamp_length_max(along);
+        }
+        [push, normal.cross(turn)]
+    }
+}
+
 /// Inverse moment of inertia of a solid sphere, 1/(kg m^2); zero for a wall.
 fn inverse_inertia(radius: f64, mass: f64) -> f64 {
     2.5 / (mass * radius * radius)
@@ -131,6 +156,7 @@ impl ContactLaw for RestitutionImpulse {
             turning: 2.5 / first.mass + 2.5 / second.mass,
             inverse_inertia: inverse_inertia(first.radius, first.mass)
                 + inverse_inertia(second.radius, second.mass),
+            coupling: 2.5 / (first.mass * first.radius) - 2.5 / (second.mass * second.radius),
             smaller_radius: first.radius.min(second.radius),
         })
     }
@@ -165,12 +191,11 @@ impl ContactLaw for RestitutionImpulse {
             force.tangential = direction * (-rate * sticking.min(own.friction * impulse));
         }
         if own.rolling_arm > 0.0 {
-            let rolling = contact.spins[0] - contact.spins[1];
-            let rolling = rolling - normal * rolling.dot(normal);
-            let speed = rolling.length();
-            let stopping = speed / own.inverse_inertia;
-            let couple = stopping.min(own.rolling_arm * impulse);
-            force.couple = rolling * (-rate * couple / speed.max(f64::MIN_POSITIVE));
+            let direction = slip.try_normalize().unwrap_or_default();
+            let yielding = yielding(direction) + own.turning;
+            let [tangential, couple] = own.roll(contact, slip, yielding, impulse);
+            force.tangential = tangential * rate;
+            force.couple = couple * rate;
         }
         force
     }

@@ -2,145 +2,13 @@ use glam::DVec3;
 
 use super::{ContactEvent, Frame, Observer};
 use crate::contact::Stored;
-use crate::damper::Partner;
 use crate::mount::MountEnergy;
-use crate::particle::Particle;
 
-/// Energies at an instant, in J.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[non_exhaustive]
-pub struct Energies {
-    /// Kinetic energy of the mount.
-    pub mount: f64,
-    /// Potential energy of the mount's springs.
-    pub spring: f64,
-    /// Kinetic energy of the particles' centres.
-    pub translation: f64,
-    /// Kinetic energy of the particles' spin.
-    pub spin: f64,
-    /// Potential energy of the particles in gravity, zero at the origin of the fixed frame.
-    pub gravity: f64,
-    /// Elastic energy in contacts.
-    pub contacts: f64,
-}
+mod accounts;
+mod touch;
 
-impl Energies {
-    /// Their sum in J.
-    #[must_use]
-    pub fn total(&self) -> f64 {
-        self.mount + self.spring + self.translation + self.spin + self.gravity + self.contacts
-    }
-}
-
-/// Energies lost in contacts, in J.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[non_exhaustive]
-pub struct Losses {
-    /// Normal damping between particles.
-    pub pair_normal: f64,
-    /// Friction between particles, rolling resistance and tangential damping included.
-    pub pair_friction: f64,
-    /// Normal damping at walls.
-    pub wall_normal: f64,
-    /// Friction at walls, rolling resistance and tangential damping included.
-    pub wall_friction: f64,
-}
-
-impl Losses {
-    /// Their sum in J.
-    #[must_use]
-    pub fn total(&self) -> f64 {
-        self.pair_normal + self.pair_friction + self.wall_normal + self.wall_friction
-    }
-
-    /// Adds energies by class, each along the normal and across it.
-    fn add(&mut self, energies: &[[f64; 2]; 2]) {
-        let [[pair_normal, pair_friction], [wall_normal, wall_friction]] = energies;
-        self.pair_normal += pair_normal;
-        self.pair_friction += pair_friction;
-        self.wall_normal += wall_normal;
-        self.wall_friction += wall_friction;
-    }
-}
-
-/// A contact with its forces.
-#[derive(Debug, Clone, Copy)]
-struct Touch {
-    particle: usize,
-    partner: Partner,
-    cavity: usize,
-    normal: DVec3,
-    force: f64,
-    /// What the normal force has besides its elastic part, N.
-    damping: f64,
-    tangential: DVec3,
-    couple: DVec3,
-    working_velocity: DVec3,
-    working_spin: DVec3,
-}
-
-impl Touch {
-    /// Powers in W taken along the normal and across it at a relative velocity and spin.
-    fn powers(&self, velocity: DVec3, spin: DVec3) -> [f64; 2] {
-        [
-            -self.force * self.normal.dot(velocity),
-            -self.tangential.dot(velocity) - self.couple.dot(spin),
-        ]
-    }
-}
-
-/// Place of a pair and of a contact with a wall among sums of the two.
-const fn class(partner: Partner) -> usize {
-    match partner {
-        Partner::Particle(_) => 0,
-        Partner::Wall(_) => 1,
-    }
-}
-
-/// How everything moves: at the end of a step, or on the mean over it.
-#[derive(Debug, Clone, Default)]
-struct Pace {
-    particles: Vec<Particle>,
-    containers: Vec<DVec3>,
-}
-
-impl Pace {
-    fn read(&mut self, frame: &Frame<'_>) {
-        self.particles.clear();
-        self.particles.extend(frame.particles());
-        self.containers.clear();
-        let containers = (0..frame.cavities()).map_while(|cavity| frame.container(cavity));
-        self.containers
-            .extend(containers.map(|motion| motion.velocity));
-    }
-
-    /// Becomes the mean of itself and `other`.
-    fn average(&mut self, other: &Self) {
-        for (own, other) in self.particles.iter_mut().zip(&other.particles) {
-            own.velocity = 0.5 * (own.velocity + other.velocity);
-            own.spin = 0.5 * (own.spin + other.spin);
-        }
-        for (own, other) in self.containers.iter_mut().zip(&other.containers) {
-            *own = 0.5 * (*own + *other);
-        }
-    }
-
-    /// Velocity of the first body's surface relative to the second's, and relative spin.
-    fn of(&self, touch: &Touch) -> [DVec3; 2] {
-        let first = &self.particles[touch.particle];
-        let turning = first.spin * first.radius;
-        let (second, turning, spin) = match touch.partner {
-            Partner::Particle(other) => {
-                let other = &self.particles[other];
-                let turning = turning + other.spin * other.radius;
-                (other.velocity, turning, first.spin - other.spin)
-            }
-            Partner::Wall(_) => (self.containers[touch.cavity], turning, first.spin),
-        };
-        let surface = first.velocity - second - turning.cross(touch.normal);
-        [surface, spin]
-    }
-}
+pub use accounts::{Energies, Losses};
+use touch::{Pace, Touch, class};
 
 /// State at the end of the last step.
 #[derive(Debug, Clone, Copy, Default)]
@@ -166,7 +34,9 @@ struct Balance {
 /// besides is known from the change of momentum, and is shared among the normal forces. Losses are
 /// that work less what the contacts [store](Stored): along the normal, and across it by slip and
 /// rolling. So the losses along the normal hold what a coarse step takes from elastic forces, too;
-/// [`integration_loss`](Self::integration_loss) tells it apart. Powers of the mount are summed by the
+/// [`integration_loss`](Self::integration_loss) tells it apart: with the paper's damper at resonance
+/// (6 Hz, 20 particles, 40 periods) it is 3.0 % of the input at a step of 2e-5 s, six to an impact,
+/// and falls as the step squared, to 0.04 % at 2.5e-6 s. Powers of the mount are summed by the
 /// trapezoidal rule.
 /// Where a mount has no coordinates, the input is the work of moving its containers against the
 /// particles.
@@ -174,6 +44,26 @@ struct Balance {
 /// Under an impulse law each impulse is counted with the kinetic energy it takes, and the account
 /// closes to rounding but for the mount's own forces. Overlaps that such a law pushes out again show
 /// as a small gain.
+///
+/// ```
+/// use particle_damper::excitation::Harmonic;
+/// use particle_damper::{Damper, EnergyLedger, HertzTsuji, Material, Particle, SingleDof, Slot};
+/// use particle_damper::glam::dvec3;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let mut damper = Damper::builder(Slot::paper(), HertzTsuji::new(Material::acrylic()))
+///     .mount(SingleDof::paper().excited_by(Harmonic::new(0.25, 6.0)?))
+///     .particles([Particle::new(3e-3, 0.2e-3)?.at(dvec3(0.03, 0.0031, 0.0))])
+///     .time_step(2e-5)
+///     .build()?;
+/// let mut ledger = EnergyLedger::new();
+/// for _ in 0..20_000 {
+///     damper.step_watched(&mut ledger)?;
+/// }
+/// assert!(ledger.residual().abs() < 1e-5 * ledger.input());
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct EnergyLedger {
     open: bool,
@@ -338,18 +228,7 @@ impl Observer for EnergyLedger {
     }
 
     fn contact(&mut self, event: &ContactEvent) {
-        self.touches.push(Touch {
-            particle: event.particle,
-            partner: event.partner,
-            cavity: event.cavity,
-            normal: event.contact.normal,
-            force: event.force.normal,
-            damping: event.force.normal - event.stored.normal_force,
-            tangential: event.force.tangential,
-            couple: event.force.couple,
-            working_velocity: event.working_velocity,
-            working_spin: event.working_spin,
-        });
+        self.touches.push(Touch::new(event));
         let sum = &mut self.stored[class(event.partner)];
         sum.normal += event.stored.normal;
         sum.tangential += event.stored.tangential;
