@@ -137,7 +137,12 @@ fn draw(directory: &Path) -> Result<(), Failure> {
 fn restitution(path: &Path) -> Result<(), Failure> {
     let speeds = (-20..=10).map(|n| 10.0_f64.powf(0.1 * f64::from(n)));
     let curve = |damping| -> Vec<(f64, f64)> {
-        let at = |v| (v, contacts::restitution_at(damping, Ending::NeverPulling, 0.75, v));
+        let at = |v| {
+            (
+                v,
+                contacts::restitution_at(damping, Ending::NeverPulling, 0.75, v),
+            )
+        };
         speeds.clone().map(at).collect()
     };
     let theory = |v: f64| {
@@ -174,10 +179,15 @@ fn oblique(path: &Path) -> Result<(), Failure> {
         };
         angles().map(at).collect()
     };
-    let rigid = angles().map(|angle| (angle, rigid_e_t(angle, 0.092, 0.98))).collect();
+    let rigid = angles()
+        .map(|angle| (angle, rigid_e_t(angle, 0.092, 0.98)))
+        .collect();
     let chart = Chart {
         title: "Oblique impact of aluminium oxide on glass, 3.9 m/s",
-        axes: ["angle from the normal (degrees)", "tangential speed after / before"],
+        axes: [
+            "angle from the normal (degrees)",
+            "tangential speed after / before",
+        ],
         x: 0.0..90.0,
         y: 0.5..1.0,
         logarithmic: [false, false],
@@ -187,7 +197,13 @@ fn oblique(path: &Path) -> Result<(), Failure> {
         line("rigid bodies", 0, 0, false, rigid),
         line("HertzTsuji", 1, 6, false, curve(Law::HertzTsuji)),
         line("HertzMindlin", 2, 0, false, curve(Law::HertzMindlin)),
-        line("RestitutionImpulse", 3, 2, false, curve(Law::RestitutionImpulse)),
+        line(
+            "RestitutionImpulse",
+            3,
+            2,
+            false,
+            curve(Law::RestitutionImpulse),
+        ),
         line("measured, Kharaz et al. 2001", 4, 1, true, MEASURED.into()),
     ];
     chart.draw(path, &lines)?;
@@ -208,7 +224,10 @@ fn masri_caughey(path: &Path) -> Result<(), Failure> {
         let mut material = particle_damper::Material::acrylic();
         material.interaction = interaction;
         let law = particle_damper::RestitutionImpulse::new(material);
-        Ok((1e3 * d, 1e3 * impact_damper::by_crate(law, (m, d, f), 8000, 50).rms))
+        Ok((
+            1e3 * d,
+            1e3 * impact_damper::by_crate(law, (m, d, f), 8000, 50).rms,
+        ))
     });
     let computed: Result<Vec<_>, particle_damper::ValueError> = crate_.collect();
     let chart = Chart {
@@ -220,7 +239,13 @@ fn masri_caughey(path: &Path) -> Result<(), Failure> {
         legend: SeriesLabelPosition::UpperRight,
     };
     let lines = [
-        line("Masri & Caughey 1966, two impacts per cycle", 0, 0, false, theory.collect()),
+        line(
+            "Masri & Caughey 1966, two impacts per cycle",
+            0,
+            0,
+            false,
+            theory.collect(),
+        ),
         line("RestitutionImpulse", 2, 2, true, computed?),
     ];
     chart.draw(path, &lines)?;
@@ -240,7 +265,9 @@ fn loss(path: &Path) -> Result<(), Failure> {
         legend: SeriesLabelPosition::UpperLeft,
     };
     let theory = all().map(|g| (g, inelastic::on_floor(g).loss)).collect();
-    let computed = all().map(|g| (g, inelastic::on_floor_by_crate(g, 4000).loss)).collect();
+    let computed = all()
+        .map(|g| (g, inelastic::on_floor_by_crate(g, 4000).loss))
+        .collect();
     let lines = [
         line("free flight and sticking", 0, 0, false, theory),
         line("RestitutionImpulse", 2, 2, true, computed),

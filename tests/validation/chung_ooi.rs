@@ -3,8 +3,8 @@
 
 use particle_damper::glam::DVec3;
 use particle_damper::{
-    ContactLaw, HertzMindlin, HertzTsuji, MaterialId, Particle, RestitutionImpulse,
-    RungeKutta4, VelocityVerlet,
+    ContactLaw, HertzMindlin, HertzTsuji, MaterialId, Particle, RestitutionImpulse, RungeKutta4,
+    VelocityVerlet,
 };
 
 use super::Form;
@@ -12,7 +12,8 @@ use super::case::{Case, Tolerance};
 use super::setup::{Collision, collide, hertz_constant, hertz_duration, material, on_rigid};
 
 const SOURCE: &str = "Chung & Ooi 2011, doi 10.1007/s10035-011-0277-0";
-const RIGID: &str = "Chung & Ooi 2011, doi 10.1007/s10035-011-0277-0; rigid bodies, Coulomb friction";
+const RIGID: &str =
+    "Chung & Ooi 2011, doi 10.1007/s10035-011-0277-0; rigid bodies, Coulomb friction";
 
 pub(crate) fn cases(form: Form) -> Vec<Case> {
     let mut cases = elastic();
@@ -46,27 +47,56 @@ fn elastic() -> Vec<Case> {
         let duration = hertz_duration(k, m, v);
         let law = HertzTsuji::new(materials).reference_speed(v).unwrap();
         let dt = duration / 2000.0;
-        let impact = collide(law, rigid, RungeKutta4::default(), dt, 0.4 * v * dt, &bodies);
+        let impact = collide(
+            law,
+            rigid,
+            RungeKutta4::default(),
+            dt,
+            0.4 * v * dt,
+            &bodies,
+        );
         let mut check = |what: &str, expected, got| {
             let name = format!("case {number}, {name}: {what}");
-            cases.push(Case::new(name, SOURCE, expected, got, Tolerance::Relative(1e-5)));
+            cases.push(Case::new(
+                name,
+                SOURCE,
+                expected,
+                got,
+                Tolerance::Relative(1e-5),
+            ));
         };
         check("overlap (m)", depth, impact.overlap);
         check("force (N)", k * depth.powf(1.5), impact.force);
         check("duration (s)", duration, impact.duration);
     }
     for (what, printed, expected) in [
-        ("case 1, glass: overlap (m)", 274.113e-6, (48e9, 0.2, 2800.0, 0.005, 0.5, 20.0)),
-        ("case 2, aluminium: overlap (m)", 49.717e-6, (140e9, 0.3, 2699.0, 0.1, 1.0, 0.2)),
+        (
+            "case 1, glass: overlap (m)",
+            274.113e-6,
+            (48e9, 0.2, 2800.0, 0.005, 0.5, 20.0),
+        ),
+        (
+            "case 2, aluminium: overlap (m)",
+            49.717e-6,
+            (140e9, 0.3, 2699.0, 0.1, 1.0, 0.2),
+        ),
     ]
-    .map(|(what, printed, (modulus, ratio, density, radius, part, v))| {
-        let k: f64 = 4.0 / 3.0 * modulus / (2.0 * (1.0 - ratio * ratio)) * f64::sqrt(radius);
-        let sphere: f64 = if part < 1.0 { 0.01 } else { 0.1 };
-        let m = part * density * 4.0 / 3.0 * std::f64::consts::PI * sphere.powi(3);
-        (what, printed, (1.25 * m * v * v / k).powf(0.4))
-    }) {
+    .map(
+        |(what, printed, (modulus, ratio, density, radius, part, v))| {
+            let k: f64 = 4.0 / 3.0 * modulus / (2.0 * (1.0 - ratio * ratio)) * f64::sqrt(radius);
+            let sphere: f64 = if part < 1.0 { 0.01 } else { 0.1 };
+            let m = part * density * 4.0 / 3.0 * std::f64::consts::PI * sphere.powi(3);
+            (what, printed, (1.25 * m * v * v / k).powf(0.4))
+        },
+    ) {
         let name = format!("{what}, printed row");
-        cases.push(Case::new(name, SOURCE, printed, expected, Tolerance::Relative(2e-5)));
+        cases.push(Case::new(
+            name,
+            SOURCE,
+            printed,
+            expected,
+            Tolerance::Relative(2e-5),
+        ));
     }
     cases
 }
@@ -74,22 +104,31 @@ fn elastic() -> Vec<Case> {
 /// Case 3: the restitution asked for comes out, 0.2 to 1.
 fn restitution() -> Vec<Case> {
     let mut cases = Vec::new();
-    for (name, modulus, ratio, density) in
-        [("aluminium oxide", 380e9, 0.23, 4000.0), ("cast iron", 100e9, 0.25, 7000.0)]
-    {
+    for (name, modulus, ratio, density) in [
+        ("aluminium oxide", 380e9, 0.23, 4000.0),
+        ("cast iron", 100e9, 0.25, 7000.0),
+    ] {
         let sphere = Particle::with_density(2.5e-3, density).unwrap();
         let one = sphere.moving(DVec3::NEG_Y * 3.9);
         let k = hertz_constant((2.5e-3, modulus, ratio), (f64::INFINITY, 1e30, 0.0));
         let dt = hertz_duration(k, sphere.mass, 3.9) / 200.0;
         for e in [0.2, 0.4, 0.6, 0.8, 1.0] {
             let (materials, rigid) = on_rigid(material(modulus, ratio, e, 0.0));
-            let strict = HertzTsuji::new(materials.clone()).reference_speed(3.9).unwrap();
+            let strict = HertzTsuji::new(materials.clone())
+                .reference_speed(3.9)
+                .unwrap();
             let coarse = RestitutionImpulse::new(materials);
             let gap = 0.3 * 3.9 * dt;
             let verlet = VelocityVerlet::default;
             for (impact, law) in [
-                (collide(strict, rigid, verlet(), dt, gap, &[one]), "HertzTsuji"),
-                (collide(coarse, rigid, verlet(), 1e-5, gap, &[one]), "RestitutionImpulse"),
+                (
+                    collide(strict, rigid, verlet(), dt, gap, &[one]),
+                    "HertzTsuji",
+                ),
+                (
+                    collide(coarse, rigid, verlet(), 1e-5, gap, &[one]),
+                    "RestitutionImpulse",
+                ),
             ] {
                 let got = impact.bodies[0].velocity.y / 3.9;
                 let name = format!("case 3, {name}, {law}: restitution");
@@ -179,12 +218,18 @@ fn impact(
     let dt = hertz_duration(hertz_constant(this, other), m, v) / 400.0;
     let gap = 0.3 * v * dt;
 
-    let run = |law: &str, after: Collision| compare(&format!("{name}, {law}"), bodies, e, mu, &after);
-    let strict = HertzTsuji::new(materials.clone()).reference_speed(v).unwrap();
+    let run =
+        |law: &str, after: Collision| compare(&format!("{name}, {law}"), bodies, e, mu, &after);
+    let strict = HertzTsuji::new(materials.clone())
+        .reference_speed(v)
+        .unwrap();
     let mut cases = run("HertzTsuji", verlet(strict, rigid, dt, gap, bodies));
     let coarse = RestitutionImpulse::new(materials.clone());
     let coarse = coarse.reference_speed(10.0).unwrap();
-    cases.extend(run("RestitutionImpulse", verlet(coarse, rigid, dt, gap, bodies)));
+    cases.extend(run(
+        "RestitutionImpulse",
+        verlet(coarse, rigid, dt, gap, bodies),
+    ));
     if slip(first, second).abs() > 1.3 * 3.5 * mu * (1.0 + e) * v {
         let spring = HertzMindlin::new(materials).reference_speed(v).unwrap();
         cases.extend(run("HertzMindlin", verlet(spring, rigid, dt, gap, bodies)));
@@ -207,7 +252,9 @@ fn oblique(form: Form) -> Vec<Case> {
     let mut cases = Vec::new();
     let angles: &[f64] = match form {
         Form::Short => &[5.0, 30.0, 40.0, 70.0],
-        Form::Long => &[1.0, 5.0, 10.0, 20.0, 30.0, 32.0, 34.0, 40.0, 50.0, 60.0, 70.0, 80.0, 89.0],
+        Form::Long => &[
+            1.0, 5.0, 10.0, 20.0, 30.0, 32.0, 34.0, 40.0, 50.0, 60.0, 70.0, 80.0, 89.0,
+        ],
     };
     let oxide = Particle::with_density(2.5e-3, 4000.0).unwrap();
     for &angle in angles {
@@ -218,9 +265,10 @@ fn oblique(form: Form) -> Vec<Case> {
         let name = format!("case 4, the same elastic, {angle} deg");
         cases.extend(impact(&name, (380e9, 0.23), (1.0, 0.092), &[body]));
     }
-    for (name, modulus, ratio, density) in
-        [("steel", 208e9, 0.3, 7850.0), ("polyethylene", 1e9, 0.4, 1400.0)]
-    {
+    for (name, modulus, ratio, density) in [
+        ("steel", 208e9, 0.3, 7850.0),
+        ("polyethylene", 1e9, 0.4, 1400.0),
+    ] {
         let sphere = Particle::with_density(0.1, density).unwrap();
         for tangential in [0.5, 3.0, 10.0, 15.0, 40.0] {
             let body = sphere.moving(DVec3::new(tangential, -5.0, 0.0));
@@ -235,9 +283,10 @@ fn oblique(form: Form) -> Vec<Case> {
 fn spinning() -> Vec<Case> {
     let mut cases = Vec::new();
     let (fall, pair) = (DVec3::NEG_Y * 0.2, (0.5, 0.4));
-    for (name, modulus, ratio, density) in
-        [("aluminium alloy", 70e9, 0.33, 2700.0), ("copper", 120e9, 0.35, 8900.0)]
-    {
+    for (name, modulus, ratio, density) in [
+        ("aluminium alloy", 70e9, 0.33, 2700.0),
+        ("copper", 120e9, 0.35, 8900.0),
+    ] {
         let sphere = Particle::with_density(0.1, density).unwrap();
         let small = Particle::with_density(0.02, density).unwrap();
         let elastic = (modulus, ratio);
@@ -251,7 +300,12 @@ fn spinning() -> Vec<Case> {
             let what = format!("case 7, {label}, opposite");
             cases.extend(impact(&what, elastic, pair, &[upper, opposite]));
             let what = format!("case 7, {label}, alike");
-            cases.extend(impact(&what, elastic, pair, &[upper, lower.spinning(turning)]));
+            cases.extend(impact(
+                &what,
+                elastic,
+                pair,
+                &[upper, lower.spinning(turning)],
+            ));
             let what = format!("case 8, {label}");
             let upper = small.moving(fall).spinning(turning);
             cases.extend(impact(&what, elastic, pair, &[upper, lower]));

@@ -4,9 +4,9 @@ use particle_damper::excitation::Harmonic;
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::mount::SingleDof;
 use particle_damper::{
-    AllPairs, BuildError, CellGrid, ContactLaw, Damper, Detector, Filling, HertzMindlin, HertzTsuji, Integrator,
-    Interaction, LinkedCells, Material, Particle, RestitutionImpulse, RungeKutta4, Skin, Slot,
-    VelocityVerlet,
+    AllPairs, BuildError, CellGrid, ContactLaw, Damper, Detector, Filling, HertzMindlin,
+    HertzTsuji, Integrator, Interaction, LinkedCells, Material, Particle, RestitutionImpulse,
+    RungeKutta4, Skin, Slot, VelocityVerlet,
 };
 
 use super::Form;
@@ -54,17 +54,31 @@ fn bouncing<L: ContactLaw>(law: L, dt: f64, drop: f64) -> f64 {
 }
 
 fn bounces() -> Vec<Case> {
-    let drop = 1e-3;
+    let drop = 2e-4;
     let speed = f64::sqrt(2.0 * 9.81 * drop);
     let k = hertz_constant((3e-3, 0.4e9, 0.3), (f64::INFINITY, 0.4e9, 0.3));
     let dt = hertz_duration(k, 0.2e-3, speed) / 100.0;
     [
-        ("HertzTsuji", bouncing(HertzTsuji::new(acrylic(1.0, 0.2)), dt, drop)),
-        ("HertzMindlin", bouncing(HertzMindlin::new(acrylic(1.0, 0.2)), dt, drop)),
-        ("RestitutionImpulse, 1e-4 s", bouncing(RestitutionImpulse::new(acrylic(1.0, 0.2)), 1e-4, 0.05)),
+        (
+            "HertzTsuji",
+            bouncing(HertzTsuji::new(acrylic(1.0, 0.2)), dt, drop),
+        ),
+        (
+            "HertzMindlin",
+            bouncing(HertzMindlin::new(acrylic(1.0, 0.2)), dt, drop),
+        ),
+        (
+            "RestitutionImpulse, 1e-4 s",
+            bouncing(RestitutionImpulse::new(acrylic(1.0, 0.2)), 1e-4, 0.05),
+        ),
     ]
     .map(|(law, drift)| {
-        Case::bounded(format!("elastic ball, {law}: drift of energy"), ELASTIC, 1e-4, drift)
+        Case::bounded(
+            format!("elastic ball, {law}: drift of energy"),
+            ELASTIC,
+            1e-4,
+            drift,
+        )
     })
     .into()
 }
@@ -72,7 +86,10 @@ fn bounces() -> Vec<Case> {
 /// Largest change of momentum along the axis of a free container, over that of the particles.
 fn momentum_drift<L: ContactLaw, I: Integrator>(law: L, integrator: I, dt: f64) -> f64 {
     let mount = SingleDof::new(0.086, 0.0, 0.0).unwrap();
-    let mut bed = Filling::new(5).with(40, paper_particle()).fill(&Slot::paper()).unwrap();
+    let mut bed = Filling::new(5)
+        .with(40, paper_particle())
+        .fill(&Slot::paper())
+        .unwrap();
     for (n, particle) in bed.iter_mut().enumerate() {
         particle.velocity = 0.5 * dvec3((n as f64).cos(), (n as f64).sin(), 0.0);
     }
@@ -98,42 +115,77 @@ fn momentum() -> Vec<Case> {
     let strict = HertzTsuji::new(Material::acrylic());
     let coarse = RestitutionImpulse::new(Material::acrylic());
     [
-        ("HertzTsuji, VelocityVerlet", momentum_drift(&strict, VelocityVerlet::default(), 2e-5)),
-        ("HertzTsuji, RungeKutta4", momentum_drift(&strict, RungeKutta4::default(), 2e-5)),
-        ("RestitutionImpulse, VelocityVerlet", momentum_drift(&coarse, VelocityVerlet::default(), 1e-4)),
-        ("RestitutionImpulse, longest step", momentum_drift(&coarse, VelocityVerlet::default(), 6e-4)),
+        (
+            "HertzTsuji, VelocityVerlet",
+            momentum_drift(&strict, VelocityVerlet::default(), 2e-5),
+        ),
+        (
+            "HertzTsuji, RungeKutta4",
+            momentum_drift(&strict, RungeKutta4::default(), 2e-5),
+        ),
+        (
+            "RestitutionImpulse, VelocityVerlet",
+            momentum_drift(&coarse, VelocityVerlet::default(), 1e-4),
+        ),
+        (
+            "RestitutionImpulse, longest step",
+            momentum_drift(&coarse, VelocityVerlet::default(), 6e-4),
+        ),
     ]
     .map(|(parts, drift)| {
-        Case::bounded(format!("container and 40 particles, {parts}: drift"), MOMENTUM, 1e-11, drift)
+        Case::bounded(
+            format!("container and 40 particles, {parts}: drift"),
+            MOMENTUM,
+            1e-11,
+            drift,
+        )
     })
     .into()
 }
 
 fn floor_force() -> Vec<Case> {
     let mut cases = Vec::new();
-    let run = |strict: bool| {
-        let bed = Filling::new(2).with(30, paper_particle()).fill(&Slot::paper()).unwrap();
+    // Side walls with friction carry a part of the bed (Janssen): the floor alone without it, the
+    // container as a whole with it.
+    let run = |strict: bool, mu: f64| {
+        let load = |floor: DVec3, whole: DVec3| if mu > 0.0 { whole.y } else { floor.y };
+        let bed = Filling::new(2)
+            .with(30, paper_particle())
+            .fill(&Slot::paper())
+            .unwrap();
         let mean = |force: f64, steps: u32| force / f64::from(steps);
         let average = 5000;
         let mut force = 0.0;
         if strict {
-            let law = HertzTsuji::new(Material::acrylic());
-            let mut damper =
-                Damper::builder(Slot::paper(), law).particles(bed).time_step(2e-5).build().unwrap();
+            let law = HertzTsuji::new(acrylic(0.75, mu));
+            let mut damper = Damper::builder(Slot::paper(), law)
+                .particles(bed)
+                .time_step(2e-5)
+                .build()
+                .unwrap();
             for step in 0..100_000 + average {
                 damper.step().unwrap();
                 if step >= 100_000 {
-                    force += damper.wall_load(0, 2).unwrap().force.y;
+                    force += load(
+                        damper.wall_load(0, 2).unwrap().force,
+                        damper.reaction(0).unwrap().force,
+                    );
                 }
             }
         } else {
-            let law = RestitutionImpulse::new(Material::acrylic());
-            let mut damper =
-                Damper::builder(Slot::paper(), law).particles(bed).time_step(1e-4).build().unwrap();
+            let law = RestitutionImpulse::new(acrylic(0.75, mu));
+            let mut damper = Damper::builder(Slot::paper(), law)
+                .particles(bed)
+                .time_step(1e-4)
+                .build()
+                .unwrap();
             for step in 0..20_000 + average {
                 damper.step().unwrap();
                 if step >= 20_000 {
-                    force += damper.wall_load(0, 2).unwrap().force.y;
+                    force += load(
+                        damper.wall_load(0, 2).unwrap().force,
+                        damper.reaction(0).unwrap().force,
+                    );
                 }
             }
         }
@@ -141,15 +193,30 @@ fn floor_force() -> Vec<Case> {
     };
     for (law, strict) in [("HertzTsuji", true), ("RestitutionImpulse", false)] {
         let weight = -30.0 * 0.2e-3 * 9.81;
-        let name = format!("bed of 30, {law}: force on the floor (N)");
-        cases.push(Case::new(name, WEIGHT, weight, run(strict), Tolerance::Relative(1e-3)));
+        for (mu, what) in [
+            (0.0, "floor, no friction"),
+            (0.2, "container, friction 0.2"),
+        ] {
+            let name = format!("bed of 30, {law}: force on the {what} (N)");
+            let got = run(strict, mu);
+            cases.push(Case::new(
+                name,
+                WEIGHT,
+                weight,
+                got,
+                Tolerance::Relative(1e-3),
+            ));
+        }
     }
     cases
 }
 
 /// The bed of a driven oscillator after 0.2 s, restored halfway if `again`.
 fn shaken<D: Detector + Clone>(detector: D, again: bool) -> Vec<Particle> {
-    let bed = Filling::new(4).with(60, paper_particle()).fill(&Slot::paper()).unwrap();
+    let bed = Filling::new(4)
+        .with(60, paper_particle())
+        .fill(&Slot::paper())
+        .unwrap();
     let law = HertzMindlin::new(Material::acrylic());
     let mut damper = Damper::builder(Slot::paper(), law)
         .mount(SingleDof::paper().excited_by(Harmonic::new(0.25, 6.0).unwrap()))
@@ -180,11 +247,26 @@ fn bits() -> Vec<Case> {
     [
         ("run again", differ(&shaken(AllPairs, false))),
         ("restored halfway", differ(&shaken(AllPairs, true))),
-        ("linked cells", differ(&shaken(LinkedCells::default(), false))),
-        ("linked cells with a skin", differ(&shaken(Skin::<LinkedCells>::default(), true))),
-        ("grid 32 x 20", differ(&shaken(CellGrid::new(20, 32).unwrap(), false))),
-        ("grid 64 x 40", differ(&shaken(CellGrid::new(40, 64).unwrap(), false))),
-        ("grid 5 x 3", differ(&shaken(CellGrid::new(3, 5).unwrap(), false))),
+        (
+            "linked cells",
+            differ(&shaken(LinkedCells::default(), false)),
+        ),
+        (
+            "linked cells with a skin",
+            differ(&shaken(Skin::<LinkedCells>::default(), true)),
+        ),
+        (
+            "grid 32 x 20",
+            differ(&shaken(CellGrid::new(20, 32).unwrap(), false)),
+        ),
+        (
+            "grid 64 x 40",
+            differ(&shaken(CellGrid::new(40, 64).unwrap(), false)),
+        ),
+        (
+            "grid 5 x 3",
+            differ(&shaken(CellGrid::new(3, 5).unwrap(), false)),
+        ),
     ]
     .map(|(what, count)| Case::bounded(format!("{what}: particles that differ"), BITS, 0.0, count))
     .into()
@@ -214,17 +296,28 @@ fn refusals() -> Vec<Case> {
     };
     let same = vec![ball, ball];
     let outside = ball.at(dvec3(0.03, -0.01, 0.0));
-    let crowd = Filling::new(1).with(500, paper_particle()).fill(&Slot::paper());
+    let crowd = Filling::new(1)
+        .with(500, paper_particle())
+        .fill(&Slot::paper());
     [
         ("a step too long is refused with its limit", names_limit),
         ("a negative step", build(-1e-5, down, vec![ball]).is_err()),
-        ("gravity that is no number", build(1e-5, DVec3::NAN, vec![ball]).is_err()),
+        (
+            "gravity that is no number",
+            build(1e-5, DVec3::NAN, vec![ball]).is_err(),
+        ),
         ("coincident centres", build(1e-5, down, same).is_err()),
-        ("a particle outside", build(1e-5, down, vec![outside]).is_err()),
+        (
+            "a particle outside",
+            build(1e-5, down, vec![outside]).is_err(),
+        ),
         ("restitution 1.2", Interaction::new(1.2, 0.2).is_err()),
         ("friction -0.1", Interaction::new(0.5, -0.1).is_err()),
         ("a radius of zero", Particle::new(0.0, 1.0).is_err()),
-        ("a mass that is no number", Particle::new(1.0, f64::NAN).is_err()),
+        (
+            "a mass that is no number",
+            Particle::new(1.0, f64::NAN).is_err(),
+        ),
         ("more particles than fit", crowd.is_err()),
     ]
     .map(|(what, holds)| Case::bounded(what, REFUSED, 0.0, unless(holds)))
@@ -235,7 +328,10 @@ fn refusals() -> Vec<Case> {
 fn edges() -> Vec<Case> {
     let ball = paper_particle();
     let heap = |count: usize| {
-        Filling::new(6).with(count, ball).fill(&Slot::paper()).unwrap()
+        Filling::new(6)
+            .with(count, ball)
+            .fill(&Slot::paper())
+            .unwrap()
     };
     let mut coincident = heap(5);
     coincident[1].position = coincident[0].position;
@@ -262,7 +358,9 @@ fn edges() -> Vec<Case> {
         }
         let all = strict.particles().chain(coarse.particles());
         all.fold(0.0, |bad, body| {
-            bad + unless(body.position.is_finite() && body.velocity.is_finite() && body.spin.is_finite())
+            bad + unless(
+                body.position.is_finite() && body.velocity.is_finite() && body.spin.is_finite(),
+            )
         })
     };
     [
@@ -274,7 +372,12 @@ fn edges() -> Vec<Case> {
         ("mu 0", finite(0.75, 0.0, heap(40), 0.05)),
     ]
     .map(|(what, count)| {
-        Case::bounded(format!("{what}: numbers that are not finite"), REFUSED, 0.0, count)
+        Case::bounded(
+            format!("{what}: numbers that are not finite"),
+            REFUSED,
+            0.0,
+            count,
+        )
     })
     .into()
 }

@@ -2,8 +2,8 @@
 
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::{
-    AllPairs, BuildError, Builder, ContactLaw, Cuboid, Damper, Driven, HertzMindlin, HertzTsuji, Particle,
-    RestitutionImpulse, VelocityVerlet,
+    AllPairs, BuildError, Builder, ContactLaw, Cuboid, Damper, Driven, HertzMindlin, HertzTsuji,
+    Particle, RestitutionImpulse, VelocityVerlet,
 };
 
 use super::Form;
@@ -45,8 +45,9 @@ fn with_part<L: ContactLaw + Clone>(
     make: impl Fn() -> Builder<Cuboid, L, Driven, AllPairs, VelocityVerlet>,
     part: f64,
 ) -> Damper<Cuboid, L, Driven, AllPairs, VelocityVerlet> {
-    let Err(BuildError::TimeStepTooLong { limit, .. }) = make().time_step(1e9).build() else {
-        panic!("a step of 1e9 s is too long")
+    let limit = match make().time_step(1e9).build() {
+        Err(BuildError::TimeStepTooLong { limit, .. }) => limit,
+        other => panic!("a step of 1e9 s is too long: {:?}", other.err()),
     };
     make().time_step(part * limit).build().unwrap()
 }
@@ -152,7 +153,12 @@ pub(crate) fn cases(form: Form) -> Vec<Case> {
     };
     let mut cases = Vec::new();
     for law in [Law::HertzTsuji, Law::HertzMindlin, Law::RestitutionImpulse] {
-        for target in [Target::Wall, Target::Particles(1), Target::Particles(2), Target::Particles(3)] {
+        for target in [
+            Target::Wall,
+            Target::Particles(1),
+            Target::Particles(2),
+            Target::Particles(3),
+        ] {
             for (range, part) in [
                 ([0.05, 0.9], [0.05, 0.5]),
                 ([0.05, 0.9], [0.5, 1.0]),
@@ -161,7 +167,9 @@ pub(crate) fn cases(form: Form) -> Vec<Case> {
             ] {
                 let gains = (0..count).map(|n| gain(law, &throw(n, range, part), target));
                 let worst = gains.fold(f64::NEG_INFINITY, f64::max);
-                let name = format!("{law:?}, {target:?}, e {range:?}, steps {part:?} of the longest, {count} throws");
+                let name = format!(
+                    "{law:?}, {target:?}, e {range:?}, steps {part:?} of the longest, {count} throws"
+                );
                 // Rounding, of as many steps as an impact takes.
                 cases.push(Case::bounded(name, CLAUSIUS, 1e-12, worst));
             }

@@ -65,7 +65,8 @@ pub(crate) fn two_impacts(m: f64, e: f64, d: f64, f: f64) -> Option<TwoImpacts> 
         forced + (-z * w * t).exp() * (free * cosine + (rate + z * w * free) / wd * sine)
     };
     let samples = 4000;
-    let squares = (0..samples).map(|n| at((f64::from(n) + 0.5) * theta / f64::from(samples)).powi(2));
+    let squares =
+        (0..samples).map(|n| at((f64::from(n) + 0.5) * theta / f64::from(samples)).powi(2));
     let rms = (squares.sum::<f64>() / f64::from(samples)).sqrt();
     (speed.is_finite() && speed > 0.0).then_some(TwoImpacts {
         speed,
@@ -99,7 +100,10 @@ pub(crate) fn by_crate<L: ContactLaw>(
         damper.step().unwrap();
     }
     let (mut squares, mut speeds, mut displacements, mut impacts) = (0.0, 0.0, 0.0, 0);
-    let mut before = (damper.particle(0).unwrap().velocity.x, damper.coordinates()[0]);
+    let mut before = (
+        damper.particle(0).unwrap().velocity.x,
+        damper.coordinates()[0],
+    );
     for _ in 0..periods * steps {
         damper.step().unwrap();
         let x = damper.coordinates()[0];
@@ -120,16 +124,18 @@ pub(crate) fn by_crate<L: ContactLaw>(
     }
 }
 
-/// Rows of (m, e, d, f) with a stable motion of two impacts per cycle.
+/// Rows of (m, e, d, f) whose motion with two impacts per cycle is stable: exact solutions between
+/// impacts, followed from rest, end in it. (They do not for 8.6 g, 0.6, 20 mm, 6.0288 Hz, nor for
+/// 4.3 g, 0.6, 40 mm there.)
 pub(crate) const ROWS: [(f64, f64, f64, f64); 8] = [
     (8.6e-3, 0.6, 0.040, 6.0288),
-    (8.6e-3, 0.6, 0.020, 6.0288),
-    (8.6e-3, 0.75, 0.040, 6.0288),
-    (4.3e-3, 0.6, 0.040, 6.0288),
-    (8.6e-3, 0.4, 0.030, 6.0288),
+    (4.3e-3, 0.4, 0.060, 6.0288),
+    (12.9e-3, 0.4, 0.030, 5.9),
     (8.6e-3, 0.6, 0.030, 6.2),
-    (8.6e-3, 0.6, 0.030, 5.9),
-    (4.3e-3, 0.7, 0.030, 6.1),
+    (8.6e-3, 0.75, 0.040, 6.2),
+    (8.6e-3, 0.4, 0.040, 5.9),
+    (4.3e-3, 0.6, 0.060, 6.0288),
+    (4.3e-3, 0.75, 0.040, 6.2),
 ];
 
 pub(crate) fn cases(form: Form) -> Vec<Case> {
@@ -152,7 +158,13 @@ pub(crate) fn cases(form: Form) -> Vec<Case> {
         for (law, got, bound) in laws {
             let mut check = |what: &str, expected, got| {
                 let name = format!("m {m} kg, e {e}, d {d} m, {f} Hz, {law}: {what}");
-                cases.push(Case::new(name, MASRI, expected, got, Tolerance::Relative(bound)));
+                cases.push(Case::new(
+                    name,
+                    MASRI,
+                    expected,
+                    got,
+                    Tolerance::Relative(bound),
+                ));
             };
             check("U (m/s)", expected.speed, got.speed);
             check("RMS (m)", expected.rms, got.rms);
@@ -166,7 +178,13 @@ pub(crate) fn cases(form: Form) -> Vec<Case> {
         ("RMS (m)", 4.175_117e-3, solved.rms),
     ] {
         let name = format!("printed row: {what}");
-        cases.push(Case::new(name, MASRI, printed, got, Tolerance::Relative(1e-6)));
+        cases.push(Case::new(
+            name,
+            MASRI,
+            printed,
+            got,
+            Tolerance::Relative(1e-6),
+        ));
     }
     cases.push(decay());
     cases
@@ -198,5 +216,11 @@ fn decay() -> Case {
     let expected = TAU * z / (1.0 - z * z).sqrt();
     let got = (peaks[0] / peaks[5]).ln() / 5.0;
     let close = Tolerance::Relative(1e-5);
-    Case::new("free decay of the empty box: log decrement", DECAY, expected, got, close)
+    Case::new(
+        "free decay of the empty box: log decrement",
+        DECAY,
+        expected,
+        got,
+        close,
+    )
 }

@@ -38,7 +38,9 @@ fn pairs() -> Vec<Case> {
                     };
                     let body = |mass: f64, velocity: f64| {
                         let radius = 3e-3 * (mass / 2e-4_f64).cbrt();
-                        Particle::new(radius, mass).unwrap().moving(DVec3::Y * velocity)
+                        Particle::new(radius, mass)
+                            .unwrap()
+                            .moving(DVec3::Y * velocity)
                     };
                     let bodies = [body(m1, v1), body(m2, v2)];
                     let dt = 1e-4;
@@ -64,7 +66,13 @@ fn pairs() -> Vec<Case> {
                     let scale = 0.5 * m * (v1 - v2).powi(2);
                     let lost = (energy([v1, v2]) - energy(after)) / scale;
                     let due = 1.0 - e * e;
-                    cases.push(Case::new(name("energy lost / (m* v^2/2)"), NEWTON, due, lost, close));
+                    cases.push(Case::new(
+                        name("energy lost / (m* v^2/2)"),
+                        NEWTON,
+                        due,
+                        lost,
+                        close,
+                    ));
                 }
             }
         }
@@ -107,15 +115,28 @@ fn walls() -> Vec<Case> {
         after.push((kutta.particle(0).unwrap().velocity.y, kutta.rates()[0]));
         let share = (1.0 + e) * (v - wall) / (mass + m);
         for (got, integrator) in after.into_iter().zip(["VelocityVerlet", "RungeKutta4"]) {
-            let name = |what: &str| format!("container {mass} kg, m {m} kg, e {e}, {integrator}: {what}");
+            let name =
+                |what: &str| format!("container {mass} kg, m {m} kg, e {e}, {integrator}: {what}");
             let close = Tolerance::Absolute(if e < 0.02 { 1e-3 } else { 1e-12 });
             cases.push(Case::new(name("v'"), PAPER, v - share * mass, got.0, close));
-            cases.push(Case::new(name("v_w'"), PAPER, wall + share * m, got.1, close));
+            cases.push(Case::new(
+                name("v_w'"),
+                PAPER,
+                wall + share * m,
+                got.1,
+                close,
+            ));
         }
     }
     let free = paper_particle();
     let expected = -1.0 + 1.75 * 0.086 / (0.086 + free.mass);
     let printed = Tolerance::Absolute(5e-8);
-    cases.push(Case::new("Eq. (11), the printed row: v'", PAPER, 0.745_939_7, expected, printed));
+    cases.push(Case::new(
+        "Eq. (11), the printed row: v'",
+        PAPER,
+        0.745_939_7,
+        expected,
+        printed,
+    ));
     cases
 }

@@ -40,9 +40,7 @@ pub(crate) fn on_floor(g: f64) -> Cycle {
     // Heights in A, phases in rad, speeds in A w: gravity is 1/G.
     let (start, flight) = if g < (1.0 + PI * PI).sqrt() {
         let start = (1.0 / g).asin();
-        let gap = |s: f64| {
-            start.sin() + start.cos() * s - s * s / (2.0 * g) - (start + s).sin()
-        };
+        let gap = |s: f64| start.sin() + start.cos() * s - s * s / (2.0 * g) - (start + s).sin();
         let (mut low, mut high) = (0.05_f64, 0.05);
         while gap(high) > 0.0 {
             low = high;
@@ -89,7 +87,9 @@ pub(crate) fn on_floor_by_crate(g: f64, steps: u32) -> Cycle {
         }
     };
     let ball = paper_particle();
-    let law = RestitutionImpulse::new(acrylic(0.0, 0.0)).reference_speed(3.0).unwrap();
+    let law = RestitutionImpulse::new(acrylic(0.0, 0.0))
+        .reference_speed(3.0)
+        .unwrap();
     let mut damper = Damper::builder(Slot::new(0.06, 0.6).unwrap(), law)
         .detector(AllPairs)
         .mount(Prescribed(shake))
@@ -149,7 +149,9 @@ pub(crate) fn collect_by_crate(ratio: f64, steps: u32) -> f64 {
         }
     };
     let ball = paper_particle();
-    let law = RestitutionImpulse::new(acrylic(0.0, 0.0)).reference_speed(3.0).unwrap();
+    let law = RestitutionImpulse::new(acrylic(0.0, 0.0))
+        .reference_speed(3.0)
+        .unwrap();
     let width = ratio * amplitude + 2.0 * ball.radius;
     let start = dvec3(ball.radius, 2.0 * ball.radius, 0.0);
     let mut damper = Damper::builder(Slot::new(width, 4.0 * ball.radius).unwrap(), law)
@@ -187,15 +189,37 @@ pub(crate) fn cases(form: Form) -> Vec<Case> {
             cases.push(Case::new(name, FLOOR, expected, got, close));
         };
         check("loss per cycle / (m A^2 w^2)", expected.loss, got.loss);
-        check("apparent mass / m", expected.apparent_mass, got.apparent_mass);
+        check(
+            "apparent mass / m",
+            expected.apparent_mass,
+            got.apparent_mass,
+        );
         check("part of the cycle in flight", expected.flight, got.flight);
     }
     let printed = Tolerance::Absolute(5e-6);
     let two = on_floor(2.0);
-    cases.push(Case::new("G 2, printed row: loss", FLOOR, 1.836_18, two.loss, printed));
-    cases.push(Case::new("G 2, printed row: apparent mass", FLOOR, 0.734_91, two.apparent_mass, printed));
+    cases.push(Case::new(
+        "G 2, printed row: loss",
+        FLOOR,
+        1.836_18,
+        two.loss,
+        printed,
+    ));
+    cases.push(Case::new(
+        "G 2, printed row: apparent mass",
+        FLOOR,
+        0.734_91,
+        two.apparent_mass,
+        printed,
+    ));
     let first = on_floor((1.0 + PI * PI).sqrt() - 1e-9);
-    cases.push(Case::new("first full-period flight at sqrt(1 + pi^2)", FLOOR, 1.0, first.flight, Tolerance::Absolute(1e-4)));
+    cases.push(Case::new(
+        "first full-period flight at sqrt(1 + pi^2)",
+        FLOOR,
+        1.0,
+        first.flight,
+        Tolerance::Absolute(1e-4),
+    ));
     for ratio in [0.2, 0.5, 1.0, 2.0, 3.0, PI] {
         let name = format!("collect and collide, L/A {ratio:.4}: loss / (m A^2 w^2)");
         let got = collect_by_crate(ratio, steps);

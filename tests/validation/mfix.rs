@@ -3,8 +3,8 @@
 
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::{
-    Bodies, Contact, ContactForce, ContactLaw, Cuboid, Damper, HertzMindlin, HertzTsuji, Integrator, LawError,
-    Particle, RestitutionImpulse, RungeKutta4, Slot, VelocityVerlet,
+    Bodies, Contact, ContactForce, ContactLaw, Cuboid, Damper, HertzMindlin, HertzTsuji,
+    Integrator, LawError, Particle, RestitutionImpulse, RungeKutta4, Slot, VelocityVerlet,
 };
 
 use super::Form;
@@ -13,7 +13,8 @@ use super::setup::material;
 
 const BALL: &str = "Garg et al. 2012 (MFIX-DEM 01, 02), doi 10.1016/j.powtec.2011.09.019";
 const STACK: &str = "Garg et al. 2012 (MFIX-DEM 03), doi 10.1016/j.powtec.2011.09.019";
-const ROLL: &str = "Garg et al. 2012 (MFIX-DEM 04), doi 10.1016/j.powtec.2011.09.019; 2 u0/(7 mu g), 5 u0/7";
+const ROLL: &str =
+    "Garg et al. 2012 (MFIX-DEM 04), doi 10.1016/j.powtec.2011.09.019; 2 u0/(7 mu g), 5 u0/7";
 const G: f64 = 9.81;
 
 /// F = k d + c d', the same for every pair; c from the restitution coefficient and m*.
@@ -78,11 +79,13 @@ fn speed_after(v: f64, w: f64, z: f64) -> (f64, f64) {
         let fade = (-z * w * t).exp();
         let b = (v - z * w * rest) / wd;
         let s = rest + fade * (b * sine - rest * cosine);
-        let rate = fade
-            * ((b * wd + z * w * rest) * cosine + (rest * wd - z * w * b) * sine);
+        let rate = fade * ((b * wd + z * w * rest) * cosine + (rest * wd - z * w * b) * sine);
         (s, rate)
     };
-    let (mut low, mut high) = (0.5 * std::f64::consts::PI / wd, 2.0 * std::f64::consts::PI / wd);
+    let (mut low, mut high) = (
+        0.5 * std::f64::consts::PI / wd,
+        2.0 * std::f64::consts::PI / wd,
+    );
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
         if at(middle).0 > 0.0 {
@@ -136,13 +139,20 @@ fn bouncing() -> Vec<Case> {
             let rest = before.velocity.y / G;
             let apex = before.position.y - radius + 0.5 * G * rest * rest;
             let at = damper.time() - dt + rest;
-            let name = |what| format!("ball r {radius} m, k {k} N/m, e {e}, bounce {bounce}: {what}");
+            let name =
+                |what| format!("ball r {radius} m, k {k} N/m, e {e}, bounce {bounce}: {what}");
             // The dashpot sets in with a jump, of which a step misses half at the worst: that
             // changes the speed by z w dt of itself, the height by twice that, at every bounce.
             let missed = law.damping_ratio() * w * dt;
             let close = Tolerance::Relative(2.0 * f64::from(bounce) * missed);
             cases.push(Case::new(name("height (m)"), BALL, height, apex, close));
-            cases.push(Case::new(name("time of the apex (s)"), BALL, time, at, close));
+            cases.push(Case::new(
+                name("time of the apex (s)"),
+                BALL,
+                time,
+                at,
+                close,
+            ));
         }
     }
     cases
@@ -224,7 +234,10 @@ fn stacked() -> Vec<Case> {
             let kutta = stack_by_crate(RungeKutta4::default(), densities, k, e, plan);
             for (got, integrator) in [(verlet, "VelocityVerlet"), (kutta, "RungeKutta4")] {
                 for n in 0..2 {
-                    let name = format!("stack, k {k} N/m, e {e}, {time} s, {integrator}: height {} (m)", n + 1);
+                    let name = format!(
+                        "stack, k {k} N/m, e {e}, {time} s, {integrator}: height {} (m)",
+                        n + 1
+                    );
                     let close = Tolerance::Relative(1e-4);
                     cases.push(Case::new(name, STACK, expected[n], got[n], close));
                 }

@@ -9,12 +9,17 @@ use super::Form;
 use super::case::{Case, Tolerance};
 use super::setup::{collide, hertz_constant, hertz_duration, material};
 
-const RIGID: &str = "rigid sphere, Coulomb friction; Chung & Ooi 2011, doi 10.1007/s10035-011-0277-0";
+const RIGID: &str =
+    "rigid sphere, Coulomb friction; Chung & Ooi 2011, doi 10.1007/s10035-011-0277-0";
 const KHARAZ: &str = "Kharaz, Gorham & Salman 2001, doi 10.1016/S0032-5910(01)00283-2, measured";
 
 /// Measured e_t of aluminium oxide spheres of 5 mm on glass at 3.9 m/s, by angle in degrees.
-pub(crate) const MEASURED: [(f64, f64); 4] =
-    [(9.63, 0.673), (20.08, 0.596), (30.22, 0.688), (49.55, 0.847)];
+pub(crate) const MEASURED: [(f64, f64); 4] = [
+    (9.63, 0.673),
+    (20.08, 0.596),
+    (30.22, 0.688),
+    (49.55, 0.847),
+];
 
 /// The contact laws that are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,11 +58,15 @@ pub(crate) fn rebound(law: Law, degrees: f64, mu: f64, e: f64) -> [f64; 3] {
             collide(law, glass, verlet, dt, gap, &bodies)
         }
         Law::HertzMindlin => {
-            let law = HertzMindlin::new(materials).reference_speed(normal).unwrap();
+            let law = HertzMindlin::new(materials)
+                .reference_speed(normal)
+                .unwrap();
             collide(law, glass, verlet, dt, gap, &bodies)
         }
         Law::RestitutionImpulse => {
-            let law = RestitutionImpulse::new(materials).reference_speed(normal).unwrap();
+            let law = RestitutionImpulse::new(materials)
+                .reference_speed(normal)
+                .unwrap();
             collide(law, glass, verlet, dt, gap, &bodies)
         }
     };
@@ -69,7 +78,10 @@ pub(crate) fn cases(form: Form) -> Vec<Case> {
     let mut cases = Vec::new();
     let angles: Vec<f64> = match form {
         Form::Short => vec![2.0, 20.0, 40.0, 60.0, 85.0],
-        Form::Long => (1..=44).map(|n| 2.0 * f64::from(n)).chain([32.0, 33.5, 89.0]).collect(),
+        Form::Long => (1..=44)
+            .map(|n| 2.0 * f64::from(n))
+            .chain([32.0, 33.5, 89.0])
+            .collect(),
     };
     for (mu, e) in [(0.092, 1.0), (0.092, 0.98), (0.3, 0.6), (0.0, 0.8)] {
         for &angle in &angles {
@@ -85,21 +97,50 @@ pub(crate) fn cases(form: Form) -> Vec<Case> {
                 let spin = 2.5 * (1.0 - expected);
                 let name = |what| format!("mu {mu}, e {e}, {angle} deg, {law:?}: {what}");
                 let close = Tolerance::Absolute(2e-3);
-                cases.push(Case::new(name("e_t"), RIGID, expected, along / incoming, close));
-                cases.push(Case::new(name("w r / v_t"), RIGID, spin, surface / incoming, close));
+                cases.push(Case::new(
+                    name("e_t"),
+                    RIGID,
+                    expected,
+                    along / incoming,
+                    close,
+                ));
+                cases.push(Case::new(
+                    name("w r / v_t"),
+                    RIGID,
+                    spin,
+                    surface / incoming,
+                    close,
+                ));
             }
         }
     }
     let printed = Tolerance::Absolute(5e-7);
-    cases.push(Case::new("mu 0.092, e 1, 40 deg, printed row", RIGID, 0.780_717, rigid_e_t(40.0, 0.092, 1.0), printed));
+    cases.push(Case::new(
+        "mu 0.092, e 1, 40 deg, printed row",
+        RIGID,
+        0.780_717,
+        rigid_e_t(40.0, 0.092, 1.0),
+        printed,
+    ));
     for (angle, measured) in MEASURED {
         let [along, ..] = rebound(Law::HertzMindlin, angle, 0.092, 0.98);
         let got = along / (3.9 * angle.to_radians().sin());
         let name = format!("oxide on glass, {angle} deg, HertzMindlin: e_t");
-        cases.push(Case::new(name, KHARAZ, measured, got, Tolerance::Absolute(0.05)));
+        cases.push(Case::new(
+            name,
+            KHARAZ,
+            measured,
+            got,
+            Tolerance::Absolute(0.05),
+        ));
     }
     let [along, ..] = rebound(Law::HertzMindlin, 20.08, 0.092, 0.98);
     let got = along / (3.9 * 20.08_f64.to_radians().sin());
-    cases.push(Case::bounded("the tangential spring rebounds below rolling: e_t at 20.08 deg", KHARAZ, 5.0 / 7.0 - 0.05, got));
+    cases.push(Case::bounded(
+        "the tangential spring rebounds below rolling: e_t at 20.08 deg",
+        KHARAZ,
+        5.0 / 7.0 - 0.05,
+        got,
+    ));
     cases
 }

@@ -7,9 +7,9 @@ use particle_damper::excitation::Harmonic;
 use particle_damper::glam::dvec3;
 use particle_damper::mount::SingleDof;
 use particle_damper::{
-    AllPairs, Bodies, Body, CellGrid, ContactLaw, Damper, Detector, Filling, HertzMindlin, HertzTsuji,
-    Integrator, LinkedCells, Material, Materials, RestitutionImpulse, RungeKutta4, Skin, Slot,
-    VelocityVerlet,
+    AllPairs, Bodies, Body, CellGrid, ContactLaw, Damper, Detector, Filling, HertzMindlin,
+    HertzTsuji, Integrator, LinkedCells, Material, Materials, RestitutionImpulse, RungeKutta4,
+    Skin, Slot, VelocityVerlet,
 };
 
 use super::Form;
@@ -47,20 +47,51 @@ fn constants() -> Vec<Case> {
     let k = |bodies| law.normal_stiffness(&bodies).unwrap();
     let mut cases = Vec::new();
     let mut check = |name: &str, printed, got, digits| {
-        cases.push(Case::new(name, PAPER, printed, got, Tolerance::Relative(digits)));
+        cases.push(Case::new(
+            name,
+            PAPER,
+            printed,
+            got,
+            Tolerance::Relative(digits),
+        ));
     };
     check("k_wall (N m^-1.5)", 1.605_048e7, k(wall), 5e-7);
     check("k_pair (N m^-1.5)", 1.134_940e7, k(pair), 5e-7);
-    check("k_wall/k_pair, equal materials", 2.0_f64.sqrt(), k(wall) / k(pair), 1e-14);
-    check("c_wall (N s m^-1.5)", 183.41, law.damping_coefficient(&wall).unwrap(), 3e-5);
+    check(
+        "k_wall/k_pair, equal materials",
+        2.0_f64.sqrt(),
+        k(wall) / k(pair),
+        1e-14,
+    );
+    check(
+        "c_wall (N s m^-1.5)",
+        183.41,
+        law.damping_coefficient(&wall).unwrap(),
+        3e-5,
+    );
     for (bodies, name, duration, overlap, force) in [
         (pair, "pair", 121.8e-6, 41.38e-6, 3.021),
         (wall, "wall", 139.9e-6, 47.53e-6, 5.260),
     ] {
         let impact = law.elastic_impact(&bodies, 1.0).unwrap();
-        check(&format!("{name} at 1 m/s: duration (s)"), duration, impact.duration(), 5e-4);
-        check(&format!("{name} at 1 m/s: overlap (m)"), overlap, impact.overlap(), 2e-4);
-        check(&format!("{name} at 1 m/s: force (N)"), force, impact.force(), 2e-4);
+        check(
+            &format!("{name} at 1 m/s: duration (s)"),
+            duration,
+            impact.duration(),
+            5e-4,
+        );
+        check(
+            &format!("{name} at 1 m/s: overlap (m)"),
+            overlap,
+            impact.overlap(),
+            2e-4,
+        );
+        check(
+            &format!("{name} at 1 m/s: force (N)"),
+            force,
+            impact.force(),
+            2e-4,
+        );
     }
     for (speed, e) in [(0.1, 0.83077), (1.0, 0.75), (3.0, 0.70242)] {
         let damping = particle_damper::Damping::Viscoelastic;
@@ -69,7 +100,12 @@ fn constants() -> Vec<Case> {
     }
     let frequency = (K / MASS).sqrt() / TAU;
     check("natural frequency (Hz)", 6.028_767, frequency, 1e-7);
-    check("damping ratio", 0.012_278_72, C / (2.0 * (K * MASS).sqrt()), 5e-7);
+    check(
+        "damping ratio",
+        0.012_278_72,
+        C / (2.0 * (K * MASS).sqrt()),
+        5e-7,
+    );
     check("static deflection (m)", 2.025_932e-3, F / K, 5e-7);
     for (f, printed) in [
         (6.027_858, 28.79616),
@@ -79,7 +115,12 @@ fn constants() -> Vec<Case> {
         (7.0, 2.024_247),
         (8.0, 0.928_510),
     ] {
-        check(&format!("formula, empty, {f} Hz: RMS/(F/K)"), printed, linear(MASS, f), 5e-7);
+        check(
+            &format!("formula, empty, {f} Hz: RMS/(F/K)"),
+            printed,
+            linear(MASS, f),
+            5e-7,
+        );
     }
     cases
 }
@@ -93,7 +134,10 @@ pub(crate) fn response<L: ContactLaw, D: Detector + Clone, I: Integrator>(
     (count, f): (usize, f64),
     (dt, pass): (f64, f64),
 ) -> [f64; 3] {
-    let bed = Filling::new(1).with(count, paper_particle()).fill(&Slot::paper()).unwrap();
+    let bed = Filling::new(1)
+        .with(count, paper_particle())
+        .fill(&Slot::paper())
+        .unwrap();
     let mut damper = Damper::builder(Slot::paper(), law)
         .mount(SingleDof::paper().excited_by(Harmonic::new(F, f).unwrap()))
         .detector(detector)
@@ -150,20 +194,56 @@ fn added_mass(form: Form) -> Vec<Case> {
         let verlet = VelocityVerlet::default;
         let grid = CellGrid::new(64, 40).unwrap();
         let mut runs = vec![
-            ("RestitutionImpulse, VelocityVerlet", response(coarse(), Skin::<LinkedCells>::default(), verlet(), run, slow)),
-            ("RestitutionImpulse, RungeKutta4", response(coarse(), grid.clone(), RungeKutta4::default(), run, slow)),
+            (
+                "RestitutionImpulse, VelocityVerlet",
+                response(
+                    coarse(),
+                    Skin::<LinkedCells>::default(),
+                    verlet(),
+                    run,
+                    slow,
+                ),
+            ),
+            (
+                "RestitutionImpulse, RungeKutta4",
+                response(coarse(), grid.clone(), RungeKutta4::default(), run, slow),
+            ),
         ];
         if form == Form::Long {
-            runs.push(("RestitutionImpulse, AllPairs", response(coarse(), AllPairs, verlet(), run, slow)));
-            runs.push(("HertzTsuji, VelocityVerlet", response(strict(), Skin::<LinkedCells>::default(), verlet(), run, fine)));
-            runs.push(("HertzTsuji, RungeKutta4, grid", response(strict(), grid, RungeKutta4::default(), run, fine)));
+            runs.push((
+                "RestitutionImpulse, AllPairs",
+                response(coarse(), AllPairs, verlet(), run, slow),
+            ));
+            runs.push((
+                "HertzTsuji, VelocityVerlet",
+                response(
+                    strict(),
+                    Skin::<LinkedCells>::default(),
+                    verlet(),
+                    run,
+                    fine,
+                ),
+            ));
+            runs.push((
+                "HertzTsuji, RungeKutta4, grid",
+                response(strict(), grid, RungeKutta4::default(), run, fine),
+            ));
             let mindlin = HertzMindlin::new(Material::acrylic());
-            runs.push(("HertzMindlin, VelocityVerlet", response(mindlin, Skin::<LinkedCells>::default(), verlet(), run, fine)));
+            runs.push((
+                "HertzMindlin, VelocityVerlet",
+                response(mindlin, Skin::<LinkedCells>::default(), verlet(), run, fine),
+            ));
         }
         for (parts, [_, deviation, mean]) in runs {
             let name = |what| format!("N {count}, {f} Hz, {parts}: {what}");
             let close = Tolerance::Relative(3e-4);
-            cases.push(Case::new(name("standard deviation/(F/K)"), TEXTBOOK, expected, deviation, close));
+            cases.push(Case::new(
+                name("standard deviation/(F/K)"),
+                TEXTBOOK,
+                expected,
+                deviation,
+                close,
+            ));
             let close = Tolerance::Absolute(1e-3);
             cases.push(Case::new(name("mean/(F/K)"), TEXTBOOK, shift, mean, close));
         }
@@ -171,7 +251,13 @@ fn added_mass(form: Form) -> Vec<Case> {
     for (count, f, printed) in [(60, 5.0, 3.2563), (20, 5.2, 3.1788)] {
         let got = linear(MASS + 0.2e-3 * f64::from(count), f);
         let name = format!("N {count}, {f} Hz, printed row: standard deviation/(F/K)");
-        cases.push(Case::new(name, PAPER, printed, got, Tolerance::Absolute(5e-5)));
+        cases.push(Case::new(
+            name,
+            PAPER,
+            printed,
+            got,
+            Tolerance::Absolute(5e-5),
+        ));
     }
     cases
 }
@@ -190,5 +276,11 @@ fn settled() -> Case {
     }
     let overlap = ball.radius - damper.particle(0).unwrap().position.y;
     let close = Tolerance::Relative(1e-4);
-    Case::new("overlap of a particle at rest (m)", PAPER, expected, overlap, close)
+    Case::new(
+        "overlap of a particle at rest (m)",
+        PAPER,
+        expected,
+        overlap,
+        close,
+    )
 }

@@ -104,9 +104,7 @@ pub(crate) fn collide<L: ContactLaw, I: Integrator>(
         .unwrap();
 
     let overlap = |now: &[Particle]| match now {
-        [first, second] => {
-            first.radius + second.radius - first.position.distance(second.position)
-        }
+        [first, second] => first.radius + second.radius - first.position.distance(second.position),
         _ => now[0].radius - now[0].position.y,
     };
     let impulsive = damper.law().evaluation() != Evaluation::EveryStage;
