@@ -331,6 +331,26 @@ mod tests {
         );
     }
 
+    /// Bodies that touch to within rounding had a force that was no number.
+    #[test]
+    fn a_touch_without_overlap_has_a_finite_force() {
+        let law = HertzMindlin::new(Material::acrylic());
+        let coefficients = law.coefficients(&paper_bodies()[1]).unwrap();
+        for overlap in [0.0, -1e-19] {
+            let mut contact = Contact::new(DVec3::Y, overlap, dvec3(0.1, -0.1, 0.0));
+            contact.elapsed = 1e-5;
+            let memory = law.advance(&coefficients, &contact, &TangentialSpring::default());
+            let force = law.force(&coefficients, &contact, &memory);
+            assert!(force.normal.abs() < 1e-100 && force.tangential.length() < 1e-100);
+            contact.overlap = 1e-6;
+            assert!(
+                law.force(&coefficients, &contact, &memory)
+                    .tangential
+                    .is_finite()
+            );
+        }
+    }
+
     #[test]
     fn without_friction_nothing_is_tangential() {
         let law = HertzMindlin::new(acrylic(0.75, 0.0));

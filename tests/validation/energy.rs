@@ -45,8 +45,9 @@ fn with_part<L: ContactLaw + Clone>(
     make: impl Fn() -> Builder<Cuboid, L, Driven, AllPairs, VelocityVerlet>,
     part: f64,
 ) -> Damper<Cuboid, L, Driven, AllPairs, VelocityVerlet> {
-    let Err(BuildError::TimeStepTooLong { limit, .. }) = make().time_step(1e9).build() else {
-        panic!("a step of 1e9 s is too long")
+    let limit = match make().time_step(1e9).build() {
+        Err(BuildError::TimeStepTooLong { limit, .. }) => limit,
+        other => panic!("a step of 1e9 s is too long: {:?}", other.err()),
     };
     make().time_step(part * limit).build().unwrap()
 }

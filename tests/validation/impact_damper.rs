@@ -124,16 +124,18 @@ pub(crate) fn by_crate<L: ContactLaw>(
     }
 }
 
-/// Rows of (m, e, d, f) with a stable motion of two impacts per cycle.
+/// Rows of (m, e, d, f) whose motion with two impacts per cycle is stable: exact solutions between
+/// impacts, followed from rest, end in it. (They do not for 8.6 g, 0.6, 20 mm, 6.0288 Hz, nor for
+/// 4.3 g, 0.6, 40 mm there.)
 pub(crate) const ROWS: [(f64, f64, f64, f64); 8] = [
     (8.6e-3, 0.6, 0.040, 6.0288),
-    (8.6e-3, 0.6, 0.020, 6.0288),
-    (8.6e-3, 0.75, 0.040, 6.0288),
-    (4.3e-3, 0.6, 0.040, 6.0288),
-    (8.6e-3, 0.4, 0.030, 6.0288),
+    (4.3e-3, 0.4, 0.060, 6.0288),
+    (12.9e-3, 0.4, 0.030, 5.9),
     (8.6e-3, 0.6, 0.030, 6.2),
-    (8.6e-3, 0.6, 0.030, 5.9),
-    (4.3e-3, 0.7, 0.030, 6.1),
+    (8.6e-3, 0.75, 0.040, 6.2),
+    (8.6e-3, 0.4, 0.040, 5.9),
+    (4.3e-3, 0.6, 0.060, 6.0288),
+    (4.3e-3, 0.75, 0.040, 6.2),
 ];
 
 pub(crate) fn cases(form: Form) -> Vec<Case> {

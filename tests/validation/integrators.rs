@@ -60,7 +60,8 @@ fn oscillator<I: Integrator>(integrator: I, dt: f64) -> f64 {
     }
     let phase = omega * dt * f64::from(steps);
     let exact = sine * phase.sin() + cosine * phase.cos();
-    (damper.coordinates()[0] - exact).abs()
+    let rate = sine * phase.cos() - cosine * phase.sin();
+    (damper.coordinates()[0] - exact).hypot(damper.rates()[0] / omega - rate)
 }
 
 /// Oscillator, and two balls that never part from each other and the walls.
