@@ -102,6 +102,7 @@ pub mod detector;
 mod error;
 pub mod excitation;
 mod filling;
+pub mod guide;
 pub mod integrator;
 pub mod law;
 mod material;

@@ -167,7 +167,7 @@ fn damage_is_refused_and_named() {
     assert_eq!(error, damaged("species"));
     let error = refused(|value| value["clock"]["steps"] = json!(u64::MAX));
     assert_eq!(error, damaged("clock"));
-    let spring = json!({"stretch": [0.0, 0.0, 0.0], "force": [0.0, 0.0, 0.0], "root": 0.0});
+    let spring = serde_json::to_value(TangentialSpring::default()).unwrap();
     for (first, second) in [(3, 3), (0, 14), (5, 2)] {
         let contact = json!({"first": first, "second": second, "memory": spring});
         let error = refused(|value| value["memory"] = json!([[contact], []]));

@@ -1,0 +1,52 @@
+//! # Run a response curve
+//!
+//! How much does a damper take off a resonance? Each point of a
+//! [`ResponseCurve`](crate::ResponseCurve) is a run of its own: a container filled at random, a
+//! harmonic force, some periods thrown away, some averaged. Point by point the result is the RMS
+//! displacement over F/K, about zero and about its mean: they differ by the sag under the particles'
+//! weight.
+//!
+//! ```
+//! use std::ops::ControlFlow;
+//! use particle_damper::{Material, ResponseCurve, RestitutionImpulse};
+//!
+//! let curve = ResponseCurve::new(RestitutionImpulse::new(Material::acrylic()))
+//!     .particles([0, 40])
+//!     .frequencies([6.0])
+//!     .periods(3, 3); // 20 and 40 for a figure that is to be quoted
+//! let responses = curve.run(|_| ControlFlow::Continue(()))?;
+//! let [bare, damped] = [responses[0].rms_mean, responses[1].rms_mean];
+//! assert!(damped < bare);
+//! # Ok::<(), particle_damper::response::ResponseError>(())
+//! ```
+//!
+//! How long to wait: the start fades as exp(-C t / 2M), which particles at rest do not hasten. Several
+//! seeds tell how much of a difference is chance. Points are independent; the feature `rayon` runs them
+//! on all cores, with the same bits.
+//!
+//! An experiment of another kind (a sweep, a shock, a record) is a loop over
+//! [`Damper::step`](crate::Damper::step) with its own [excitation](crate::excitation); a free decay is a
+//! [`SingleDof::released_from`](crate::SingleDof::released_from):
+//!
+//! ```
+//! use particle_damper::{Damper, Filling, Material, Particle, RestitutionImpulse, SingleDof, Slot};
+//!
+//! let grains = Filling::new(1).with(60, Particle::new(3e-3, 2e-4)?);
+//! let mut damper = Damper::builder(Slot::paper(), RestitutionImpulse::new(Material::acrylic()))
+//!     .mount(SingleDof::paper().released_from(0.02, 0.0)?)
+//!     .particles(grains.fill(&Slot::paper())?)
+//!     .time_step(1e-4)
+//!     .build()?;
+//! let mut largest = 0.0_f64;
+//! while damper.time() < 0.5 {
+//!     damper.step()?;
+//!     if damper.time() > 0.3 {
+//!         largest = largest.max(damper.coordinates()[0].abs());
+//!     }
+//! }
+//! let undamped_by_grains = 0.02 * f64::exp(-0.08 / (2.0 * 0.098) * 0.3);
+//! assert!(largest < 0.8 * undamped_by_grains);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! `examples/response.rs` draws the paper's curves, `examples/beam.rs` loss factors over amplitude.

@@ -1,0 +1,49 @@
+//! # Trust it
+//!
+//! What to check before a number is believed, in the order of what goes wrong most often.
+//!
+//! 1. **The time step.** Halve it; the number should stay. A builder without a
+//!    [`time_step`](crate::Builder::time_step) takes half of what the law bears.
+//! 2. **The overlaps.** A bed that is pressed into itself by more than a few hundredths of a radius is
+//!    too soft or stepped too coarsely: [`Damper::largest_overlap`](crate::Damper::largest_overlap).
+//! 3. **The energy.** An [`EnergyLedger`](crate::EnergyLedger) follows where it goes; what it cannot
+//!    account for should be small against what was put in.
+//! 4. **The momentum.** What the container got is what the particles lost, to rounding.
+//! 5. **Chance.** Fill with other [seeds](crate::Filling::new) and look at the spread.
+//!
+//! ```
+//! use particle_damper::excitation::Harmonic;
+//! use particle_damper::glam::DVec3;
+//! use particle_damper::{Damper, EnergyLedger, Filling, HertzTsuji, Material, Particle, SingleDof, Slot};
+//!
+//! let grains = Filling::new(1).with(20, Particle::new(3e-3, 2e-4)?);
+//! let mount = SingleDof::paper().excited_by(Harmonic::new(0.25, 6.0)?);
+//! let gravity = DVec3::NEG_Y * 9.81;
+//! let mut damper = Damper::builder(Slot::paper(), HertzTsuji::new(Material::acrylic()))
+//!     .mount(mount)
+//!     .gravity(gravity)
+//!     .particles(grains.fill(&Slot::paper())?)
+//!     .time_step(1e-5)
+//!     .build()?;
+//! let mut ledger = EnergyLedger::new();
+//! let (before, mut received) = (damper.momentum(), DVec3::ZERO);
+//! let mut deepest = 0.0_f64;
+//! for _ in 0..5000 {
+//!     damper.step_watched(&mut ledger)?;
+//!     received += damper.reaction(0).map_or(DVec3::ZERO, |reaction| reaction.impulse);
+//!     deepest = deepest.max(damper.largest_overlap());
+//! }
+//! assert!(deepest < 0.05 * 3e-3);
+//! assert!(ledger.residual().abs() < 0.01 * ledger.losses().total());
+//! let weight = gravity * (20.0 * 2e-4) * damper.time();
+//! let lost = before - damper.momentum() + weight;
+//! assert!((received - lost).length() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! What the crate itself is checked against, with sources and tolerances: `tests/validation/`. Which
+//! bits stay the same: same inputs, same bits, whatever the detector, the number of threads, and
+//! whether a run was interrupted by a [`Snapshot`](crate::Snapshot).
+//!
+//! What it leaves out: particles are spheres, containers translate and do not turn, air and electric
+//! charge have no effect, and walls do not wear.

@@ -1,0 +1,297 @@
+//! Bad days: what hosts and laws hand in by mistake is a typed error that says what and where, and the
+//! damper goes on once it is restored.
+
+#![allow(clippy::unwrap_used)]
+
+use glam::{DMat3, DVec3, dvec3};
+use particle_damper::{
+    Bodies, Bound, Contact, ContactForce, ContactLaw, Cuboid, Damper, Driven, Evaluation, Filling,
+    HertzMindlin, HertzTsuji, LawError, LinkedCells, Material, Motion, Mount, Particle, Partner,
+    RestitutionImpulse, Skin, StepError,
+};
+
+type Hosted<L> = Damper<Cuboid, L, Driven, Skin<LinkedCells>>;
+
+fn hosted<L: ContactLaw>(law: L) -> Hosted<L> {
+    let cavity = Cuboid::new(dvec3(0.03, 0.03, 0.03)).unwrap();
+    let filling = Filling::new(2).with(20, Particle::new(3e-3, 0.2e-3).unwrap());
+    Damper::builder(cavity, law)
+        .particles(filling.fill(&cavity).unwrap())
+        .time_step(1e-5)
+        .build()
+        .unwrap()
+}
+
+fn shaken(time: f64) -> Motion {
+    let (sine, cosine) = (40.0 * time).sin_cos();
+    Motion {
+        position: dvec3(1.0, 2.0, 1.0) * (1e-3 * sine),
+        velocity: dvec3(1.0, 2.0, 1.0) * (0.04 * cosine),
+    }
+}
+
+fn still_at(position: DVec3) -> Motion {
+    Motion {
+        position,
+        velocity: DVec3::ZERO,
+    }
+}
+
+/// Drives over `steps` intervals of a millisecond; returns the bits of the forces.
+fn go_on<L: ContactLaw>(damper: &mut Hosted<L>, steps: u32) -> Vec<[u64; 3]> {
+    let mut forces = Vec::new();
+    for _ in 0..steps {
+        let end = shaken(damper.time() + 1e-3);
+        let reaction = damper.drive(end, 1e-3).unwrap();
+        forces.push(reaction.impulse.to_array().map(f64::to_bits));
+    }
+    forces
+}
+
+/// That `mistake` is an error, after which the damper goes on from its snapshot as if nothing had
+/// happened.
+fn survives<L: ContactLaw>(
+    law: L,
+    mistake: impl Fn(&mut Hosted<L>) -> Result<(), StepError>,
+) -> StepError {
+    let mut damper = hosted(law);
+    go_on(&mut damper, 30);
+    let before = damper.snapshot();
+    let expected = go_on(&mut damper, 20);
+    damper.restore(&before).unwrap();
+    let error = mistake(&mut damper).unwrap_err();
+    damper.restore(&before).unwrap();
+    assert_eq!(go_on(&mut damper, 20), expected, "after {error}");
+    error
+}
+
+/// The mistake under a law that remembers, one that does not, and one of impulses.
+fn survives_under_every_law(
+    mistake: fn(Motion) -> (Motion, f64),
+    is_right: impl Fn(&StepError) -> bool,
+) {
+    let material = Material::acrylic;
+    let errors = [
+        survives(HertzMindlin::new(material()), |damper| {
+            let (end, interval) = mistake(damper.container(0).unwrap());
+            damper.drive(end, interval).map(|_| ())
+        }),
+        survives(HertzTsuji::new(material()), |damper| {
+            let (end, interval) = mistake(damper.container(0).unwrap());
+            damper.drive(end, interval).map(|_| ())
+        }),
+        survives(RestitutionImpulse::new(material()), |damper| {
+            let (end, interval) = mistake(damper.container(0).unwrap());
+            damper.drive(end, interval).map(|_| ())
+        }),
+    ];
+    for error in errors {
+        assert!(is_right(&error), "{error:?}");
+    }
+}
+
+#[test]
+fn a_host_that_hands_in_nan_is_told_so() {
+    survives_under_every_law(
+        |now| {
+            let mut end = now;
+            end.position.x = f64::NAN;
+            (end, 1e-3)
+        },
+        |error| matches!(error, StepError::Container { cavity: 0, position, .. } if position.x.is_nan()),
+    );
+    survives_under_every_law(
+        |now| {
+            let mut end = now;
+            end.velocity.z = f64::NEG_INFINITY;
+            (end, 1e-3)
+        },
+        |error| matches!(error, StepError::Container { velocity, .. } if velocity.z < 0.0),
+    );
+}
+
+#[test]
+fn time_that_runs_backwards_or_stands_still_is_refused() {
+    for (interval, mistake) in [
+        (-1e-3, (|now| (now, -1e-3)) as fn(Motion) -> (Motion, f64)),
+        (0.0, |now| (now, 0.0)),
+        (f64::NAN, |now| (now, f64::NAN)),
+        (f64::INFINITY, |now| (now, f64::INFINITY)),
+    ] {
+        survives_under_every_law(mistake, |error| match error {
+            StepError::Value(value) => {
+                value.quantity == "interval (s)"
+                    && value.value.to_bits() == interval.to_bits()
+                    && value.bound == Bound::Positive
+            }
+            _ => false,
+        });
+    }
+}
+
+#[test]
+fn a_container_moved_by_a_metre_in_one_step_leaves_its_particles_behind() {
+    for direction in DVec3::AXES {
+        survives_under_every_law(
+            match direction {
+                DVec3::X => |now| (still_at(now.position + DVec3::X), 1e-5),
+                DVec3::Y => |now| (still_at(now.position - DVec3::Y), 1e-5),
+                _ => |now| (still_at(now.position + DVec3::Z), 1e-5),
+            },
+            |error| matches!(error, StepError::Escaped { .. } | StepError::Overlap { .. }),
+        );
+    }
+}
+
+/// A linear spring that answers with NaN between two particles, or at a wall, when told to.
+#[derive(Debug, Clone)]
+struct Spring {
+    fails_at: std::rc::Rc<std::cell::Cell<Option<bool>>>,
+    impulse: bool,
+}
+
+impl ContactLaw for Spring {
+    type Coefficients = bool;
+    type Memory = ();
+
+    fn coefficients(&self, bodies: &Bodies) -> Result<bool, LawError> {
+        Ok(bodies.at_wall())
+    }
+
+    fn force(&self, at_wall: &bool, contact: &Contact, _: &()) -> ContactForce {
+        if self.fails_at.get() == Some(*at_wall) {
+            return ContactForce::new(f64::NAN, DVec3::ZERO);
+        }
+        ContactForce::new(300.0 * contact.overlap.max(0.0), DVec3::ZERO)
+    }
+
+    fn evaluation(&self) -> Evaluation {
+        if self.impulse {
+            Evaluation::Simultaneous
+        } else {
+            Evaluation::EveryStage
+        }
+    }
+}
+
+#[test]
+fn a_law_that_returns_nan_is_named_by_the_particle_it_was_asked_for() {
+    for impulse in [false, true] {
+        for at_wall in [false, true] {
+            let fails_at = std::rc::Rc::default();
+            let law = Spring { fails_at, impulse };
+            let switch = law.fails_at.clone();
+            let error = survives(law, move |damper| {
+                switch.set(Some(at_wall));
+                // Sooner or later something touches.
+                let outcome = (0..5000).try_for_each(|_| damper.step());
+                switch.set(None);
+                outcome
+            });
+            let StepError::NotFinite {
+                particle,
+                acceleration,
+                ..
+            } = error
+            else {
+                panic!("{error:?}")
+            };
+            assert!(particle < 20 && acceleration.is_nan(), "{error}");
+        }
+    }
+}
+
+/// A mount whose solver breaks down.
+struct Broken;
+
+impl Mount for Broken {
+    fn degrees(&self) -> usize {
+        1
+    }
+
+    fn motion(&self, _time: f64, x: &[f64], v: &[f64], _cavity: usize) -> Motion {
+        Motion {
+            position: DVec3::Y * x[0],
+            velocity: DVec3::Y * v[0],
+        }
+    }
+
+    fn accelerate(&self, time: f64, _: &[f64], _: &[f64], _: &[DVec3], a: &mut [f64]) {
+        a[0] = if time > 1e-3 { f64::NAN } else { 0.0 };
+    }
+
+    fn mobility(&self, _cavity: usize) -> DMat3 {
+        DMat3::ZERO
+    }
+}
+
+#[test]
+fn a_mount_that_returns_nan_is_told_so_within_two_steps() {
+    let cavity = Cuboid::new(DVec3::splat(0.03)).unwrap();
+    let particle = Particle::new(3e-3, 0.2e-3).unwrap().at(DVec3::splat(0.015));
+    let mut damper = Damper::builder(cavity, HertzTsuji::new(Material::acrylic()))
+        .mount(Broken)
+        .particles([particle])
+        .time_step(1e-5)
+        .build()
+        .unwrap();
+    let error = loop {
+        if let Err(error) = damper.step() {
+            break error;
+        }
+    };
+    assert!(matches!(error, StepError::Container { cavity: 0, .. }));
+    assert!(damper.time() < 1.03e-3);
+}
+
+#[test]
+fn two_bodies_pressed_into_each_other_are_named() {
+    let cavity = Cuboid::new(DVec3::splat(0.03)).unwrap();
+    let particle = |x: f64, speed: f64| {
+        let particle = Particle::new(3e-3, 0.2e-3).unwrap();
+        particle.at(dvec3(x, 0.015, 0.015)).moving(DVec3::X * speed)
+    };
+    let soft = Spring {
+        fails_at: std::rc::Rc::default(),
+        impulse: false,
+    };
+    let mut damper = Damper::builder(cavity, soft)
+        .particles([particle(0.01, 3.0), particle(0.02, -3.0)])
+        .time_step(1e-5)
+        .build()
+        .unwrap();
+    let error = loop {
+        if let Err(error) = damper.step() {
+            break error;
+        }
+    };
+    let StepError::Overlap {
+        particle,
+        other,
+        overlap,
+        limit,
+    } = error
+    else {
+        panic!("{error:?}")
+    };
+    assert_eq!((particle, other), (0, Partner::Particle(1)));
+    assert!(overlap > limit && limit == 3e-3);
+}
+
+/// A host that iterates finds the same end of a step however often it went back.
+#[test]
+fn a_step_taken_back_leaves_no_trace() {
+    let mut damper = hosted(HertzMindlin::new(Material::acrylic()));
+    let mut straight = hosted(HertzMindlin::new(Material::acrylic()));
+    for _ in 0..40 {
+        let end = shaken(damper.time() + 1e-3);
+        let before = damper.snapshot();
+        for guess in [0.5, 0.9, 1.3] {
+            damper.drive(still_at(end.position * guess), 1e-3).unwrap();
+            damper.restore(&before).unwrap();
+        }
+        let reaction = damper.drive(end, 1e-3).unwrap();
+        assert_eq!(reaction, straight.drive(end, 1e-3).unwrap());
+    }
+    assert_eq!(damper.snapshot(), straight.snapshot());
+}
