@@ -11,6 +11,7 @@ mod cases;
 #[path = "support/chart.rs"]
 mod chart;
 #[path = "support/output.rs"]
+#[allow(dead_code)] // Shared by the examples, each of which uses a part.
 mod output;
 
 use std::error::Error;

@@ -7,6 +7,11 @@ use crate::damper::StepError;
 /// doi 10.1063/1.474784, with full prediction): second order, one evaluation a step. The default.
 ///
 /// x' = x + v dt + a dt^2/2; forces at x' and v + a dt; v' = v + (a + a') dt/2.
+///
+/// Its second order holds where forces are smooth, dashpots included. A contact sets in between two
+/// steps with a force that is not: once per impact that costs, as a power of the step, 5/2 in an
+/// elastic Hertz contact, 3/2 with d^(1/2) damping and 5/4 with
+/// d^(1/4) damping. At 100 steps to a contact the restitution is good to 1e-3.
 #[derive(Debug, Clone, Default)]
 pub struct VelocityVerlet {
     translation: Vec<DVec3>,

@@ -233,9 +233,9 @@ fn asked(form: Form) -> Vec<Case> {
         for ending in [Ending::NeverPulling, Ending::PullingAllowed] {
             for &e in values {
                 for ratio in [0.0, 1.0, 1e-3, 1e3] {
-                    // d^(1/4) damping sets in so steeply that below 0.5 it takes more steps: its
+                    // d^(1/4) damping sets in so steeply that below 0.6 it takes more steps: its
                     // error is of order 5/4 in their length.
-                    let steep = damping == Damping::Tsuji && e < 0.5;
+                    let steep = damping == Damping::Tsuji && e < 0.6;
                     let steps = if !steep {
                         100.0
                     } else if e < 0.2 {

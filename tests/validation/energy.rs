@@ -146,6 +146,14 @@ pub(crate) fn throw(n: u32, restitution: [f64; 2], part: [f64; 2]) -> Throw {
     }
 }
 
+/// What an undamped impact in four to eight steps may err by.
+fn undamped(law: Law) -> f64 {
+    match law {
+        Law::HertzTsuji | Law::HertzMindlin => 5e-3,
+        Law::RestitutionImpulse => 1e-12,
+    }
+}
+
 pub(crate) fn cases(form: Form) -> Vec<Case> {
     let count = match form {
         Form::Short => 300,
@@ -159,19 +167,21 @@ pub(crate) fn cases(form: Form) -> Vec<Case> {
             Target::Particles(2),
             Target::Particles(3),
         ] {
-            for (range, part) in [
-                ([0.05, 0.9], [0.05, 0.5]),
-                ([0.05, 0.9], [0.5, 1.0]),
-                ([1.0, 1.0], [0.02, 0.05]),
-                ([1.0, 1.0], [0.5, 1.0]),
+            // Rounding, of as many steps as an impact takes; but without damping a few steps to a
+            // contact err by some 1e-3 of the energy in either direction, which is no property of a
+            // law: there the bound is that of the integration.
+            for (range, part, bound) in [
+                ([0.05, 0.99], [0.05, 0.5], 1e-12),
+                ([0.05, 0.99], [0.5, 1.0], 1e-12),
+                ([1.0, 1.0], [0.02, 0.05], 1e-12),
+                ([1.0, 1.0], [0.5, 1.0], undamped(law)),
             ] {
                 let gains = (0..count).map(|n| gain(law, &throw(n, range, part), target));
                 let worst = gains.fold(f64::NEG_INFINITY, f64::max);
                 let name = format!(
                     "{law:?}, {target:?}, e {range:?}, steps {part:?} of the longest, {count} throws"
                 );
-                // Rounding, of as many steps as an impact takes.
-                cases.push(Case::bounded(name, CLAUSIUS, 1e-12, worst));
+                cases.push(Case::bounded(name, CLAUSIUS, bound, worst));
             }
         }
     }

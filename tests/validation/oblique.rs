@@ -1,4 +1,4 @@
-//! Oblique impacts: the tangential restitution e_t = v_t'/v_t against the angle from the normal.
+//! Oblique impacts: the tangential restitution `e_t` = `v_t'`/`v_t` against the angle from the normal.
 
 use particle_damper::glam::DVec3;
 use particle_damper::{
@@ -13,7 +13,7 @@ const RIGID: &str =
     "rigid sphere, Coulomb friction; Chung & Ooi 2011, doi 10.1007/s10035-011-0277-0";
 const KHARAZ: &str = "Kharaz, Gorham & Salman 2001, doi 10.1016/S0032-5910(01)00283-2, measured";
 
-/// Measured e_t of aluminium oxide spheres of 5 mm on glass at 3.9 m/s, by angle in degrees.
+/// Measured `e_t` of aluminium oxide spheres of 5 mm on glass at 3.9 m/s, by angle in degrees.
 pub(crate) const MEASURED: [(f64, f64); 4] = [
     (9.63, 0.673),
     (20.08, 0.596),
@@ -29,7 +29,7 @@ pub(crate) enum Law {
     RestitutionImpulse,
 }
 
-/// e_t of rigid bodies: sliding, or rolling when the contact ends.
+/// `e_t` of rigid bodies: sliding, or rolling when the contact ends.
 pub(crate) fn rigid_e_t(degrees: f64, mu: f64, e: f64) -> f64 {
     let tangent = degrees.to_radians().tan();
     if tangent >= 3.5 * mu * (1.0 + e) {

@@ -262,7 +262,7 @@ fn added_mass(form: Form) -> Vec<Case> {
     cases
 }
 
-/// One particle at rest on the floor: (m g/k_wall)^(2/3).
+/// One particle at rest on the floor: (m g/`k_wall`)^(2/3).
 fn settled() -> Case {
     let ball = paper_particle();
     let expected = (ball.mass * 9.81 / 1.605_048e7_f64).powf(2.0 / 3.0);
