@@ -2,7 +2,8 @@
 //!
 //! The picture is a drawing with its motion written into it (SVG, SMIL): sharp at any size, a few
 //! hundred kilobytes, and no library needed. A stroke on each particle shows how it turns.
-//! `cargo run --release --example animation` leaves `target/animation/bed.svg`.
+//! `cargo run --release --example animation` leaves `target/animation/bed.svg`, and
+//! the container's height in `container.csv`.
 
 #[path = "support/output.rs"]
 mod output;
@@ -43,7 +44,12 @@ impl Track {
             let _ = write!(angles, "{angle:.0};");
         }
         let (places, angles) = (animate("translate", &places), animate("rotate", &angles));
-        let _ = writeln!(picture, "<g>{places}<g>{angles}{drawing}</g></g>");
+        // Where it is for a viewer that shows no motion.
+        let (x, y) = self.places.first().copied().unwrap_or_default();
+        let _ = writeln!(
+            picture,
+            "<g transform=\"translate({x:.2} {y:.2})\">{places}<g>{angles}{drawing}</g></g>"
+        );
     }
 }
 
@@ -103,7 +109,11 @@ fn main() -> Result<(), Failure> {
         track.draw(&mut picture, &ball);
     }
     picture.push_str("</svg>\n");
-    let path = output::directory("animation")?.join("bed.svg");
+    let directory = output::directory("animation")?;
+    let rows = container.places.iter().enumerate();
+    let rows = rows.map(|(frame, (_, y))| format!("{:.3},{:.4}", frame as f64 / FRAMES as f64, -y));
+    output::write_table(&directory.join("container.csv"), "period,height_mm", rows)?;
+    let path = directory.join("bed.svg");
     fs::write(&path, picture)?;
     output::say_where("picture", &path);
     Ok(())
