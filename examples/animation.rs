@@ -93,10 +93,10 @@ fn main() -> Result<(), Failure> {
     }
 
     let mut picture = String::from(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-8 -84 112 112\" width=\"900\">\n\
-         <rect x=\"-8\" y=\"-84\" width=\"112\" height=\"112\" fill=\"#fbfaf7\"/>\n",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-8 -128 76 160\" width=\"456\">\n\
+         <rect x=\"-8\" y=\"-128\" width=\"76\" height=\"160\" fill=\"#fbfaf7\"/>\n",
     );
-    let walls = "<rect y=\"-60\" width=\"96\" height=\"60\" fill=\"#eef2f6\" stroke=\"#33414e\" \
+    let walls = "<rect y=\"-96\" width=\"60\" height=\"96\" fill=\"#eef2f6\" stroke=\"#33414e\" \
                  stroke-width=\"1\"/>";
     container.draw(&mut picture, walls);
     for (track, particle) in tracks.iter().zip(damper.particles()) {
