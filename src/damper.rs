@@ -121,6 +121,8 @@ where
         let impulsive = self.engine.world.law.evaluation() != Evaluation::EveryStage;
         if impulsive {
             self.engine.strike(dt, observer)?;
+        } else {
+            self.engine.start_step();
         }
         let mut step = Step {
             begin: self.clock.time(),
@@ -235,7 +237,7 @@ where
     /// How many contacts there were when they were evaluated last, walls included.
     #[must_use]
     pub fn contacts(&self) -> usize {
-        self.engine.contacts()
+        View::contacts(&self.engine)
     }
 
     /// The largest overlap in m when contacts were evaluated last.
@@ -269,11 +271,7 @@ where
     /// Memory in bytes that particles, candidates and contacts have reserved.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
-        let blocks = self
-            .engine
-            .blocks
-            .iter()
-            .map(|block| block.reserved_bytes());
+        let blocks = self.engine.blocks.iter().map(block::Block::reserved_bytes);
         self.engine.particles.reserved_bytes()
             + self.engine.scratch.reserved_bytes()
             + blocks.sum::<usize>()

@@ -181,10 +181,9 @@ pub enum DetectorError {
 /// Proposes pairs of particles that might touch.
 ///
 /// # Using
-/// [`AllPairs`] is the reference, [`CellGrid`](crate::CellGrid) the paper's cellular automaton,
-/// [`LinkedCells`](crate::LinkedCells) the usual choice for large beds, and
-/// [`Skin`](crate::Skin) makes any of them last over many steps. All give the same
-/// trajectory to the bit.
+/// [`AllPairs`] is the reference, [`CellGrid`] the paper's cellular automaton, [`LinkedCells`] the
+/// usual choice for large beds, and [`Skin`] makes any of them last over many steps. All give the
+/// same trajectory to the bit.
 ///
 /// # Implementing
 /// 1. [`prepare`](Self::prepare) comes before the first [`detect`](Self::detect), and again if the

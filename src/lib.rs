@@ -1,4 +1,97 @@
-//! Particle impact dampers.
+//! Particle impact dampers: a container full of grains, mounted on a vibrating structure, turns
+//! vibration into collisions and friction. This crate computes what the grains do and what the
+//! structure feels of it, by a discrete element method: every grain is a sphere with position,
+//! velocity and spin, every contact a force.
+//!
+//! It does all that T. Komatsuzaki and Y. Iwata describe (Int. J. Mech. Mater. Des. 13 (2017) 407-417,
+//! doi 10.1007/s10999-016-9344-3, "the paper" on these pages) and goes on from there.
+//!
+//! # A damper in a program of one's own
+//!
+//! ```
+//! use particle_damper::glam::{DVec3, dvec3};
+//! use particle_damper::{Cuboid, Damper, Filling, Material, Motion, Particle, RestitutionImpulse};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! // A box of 40 x 60 x 40 mm with 200 acrylic spheres of 4 mm.
+//! let cavity = Cuboid::new(dvec3(0.04, 0.06, 0.04))?;
+//! let bed = Filling::new(1).with(200, Particle::new(2e-3, 0.04e-3)?).fill(&cavity)?;
+//! let law = RestitutionImpulse::new(Material::acrylic());
+//! let mut damper = Damper::builder(cavity, law).particles(bed).time_step(1e-4).build()?;
+//!
+//! // The host's loop: it moves the box, and takes the reaction back. Here a mass on a spring.
+//! let (mass, stiffness, interval) = (0.5, 2000.0, 5e-4);
+//! let (mut x, mut v) = (5e-3, 0.0);
+//! for _ in 0..400 {
+//!     v -= stiffness * x / mass * interval;
+//!     x += v * interval;
+//!     let end = Motion { position: DVec3::Y * x, velocity: DVec3::Y * v };
+//!     let reaction = damper.drive(end, interval)?;
+//!     v += reaction.impulse.y / mass;
+//! }
+//! assert!(0.5 * (mass * v * v + stiffness * x * x) < 0.8 * 0.5 * stiffness * 5e-3_f64.powi(2));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Where to go
+//!
+//! | to | read |
+//! |---|---|
+//! | embed a damper in a simulator | [`guide::embedding`] |
+//! | write a contact law | [`guide::laws`] |
+//! | write a contact detector | [`guide::detectors`] |
+//! | run a response curve | [`guide::responses`] |
+//! | know what the numbers are worth | [`guide::trust`] |
+//!
+//! # The parts
+//!
+//! A [`Damper`] is put together from five parts, each behind a trait that user code can implement:
+//!
+//! | part | trait | at hand |
+//! |---|---|---|
+//! | contact law | [`ContactLaw`] | [`HertzTsuji`] (the paper's strict law), [`HertzMindlin`] (a tangential spring besides), [`RestitutionImpulse`] (the paper's approximate law, for coarse steps) |
+//! | contact detector | [`Detector`] | [`AllPairs`], [`CellGrid`] (the paper's cellular automaton), [`LinkedCells`]; [`Skin`] makes any of them last |
+//! | integrator | [`Integrator`] | [`VelocityVerlet`], [`RungeKutta4`] (the paper's) |
+//! | mount | [`Mount`] | [`SingleDof`] (the paper's oscillator), [`Driven`] (by a host), [`Prescribed`] |
+//! | cavity | [`Cavity`] | [`Slot`] (the paper's) and [`Disc`](cavity::Disc) in the plane, [`Cuboid`], [`Cylinder`](cavity::Cylinder), [`Sphere`](cavity::Sphere) |
+//!
+//! Around them: [`Materials`] and their pairs, [`Filling`], [`excitation`]s of an oscillator,
+//! [`Observer`]s such as the [`EnergyLedger`], [`Snapshot`]s, and [`response`] curves.
+//!
+//! # What happens in a step
+//!
+//! 1. An impulse law strikes all contacts, with the velocities at the start of the step; its forces
+//!    hold until the end.
+//! 2. The integrator moves particles and mount. Whenever it asks for accelerations, the containers are
+//!    placed, the candidates that touch are listed, a stiff law answers each of them in an order that
+//!    does not depend on the detector, and the mount feels the sum.
+//! 3. Candidates are proposed anew by the detector when some particle has moved by half the skin.
+//! 4. At the last evaluation contacts advance their memory, and observers are told of them; then of
+//!    the end of the step.
+//!
+//! # Units, frames and signs
+//!
+//! SI units and `f64` throughout; [`glam`] vectors. Particles and forces are in the fixed frame, walls
+//! in the container's, which moves without turning. y points up. An overlap is positive when bodies
+//! touch; a reaction is the force of the particles *on* the container.
+//!
+//! # Features
+//!
+//! | feature | adds |
+//! |---|---|
+//! | `serde` | [`Snapshot`]s can be written and read |
+//! | `rayon` | response curves and large beds on all cores |
+//!
+//! Neither is on by default, and neither changes a bit of any result.
+//!
+//! # Goals, in this order
+//!
+//! 1. Right: theory and published tests are met to the digits they give (`tests/validation`).
+//! 2. The same bits from run to run, whichever detector, however many threads, after a restore.
+//! 3. Fast.
+//! 4. Pleasant to embed. Bad input is refused when a damper is built; the library never panics,
+//!    prints, reads a clock or starts a thread of its own.
 
 #![forbid(unsafe_code)]
 

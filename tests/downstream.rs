@@ -1,6 +1,6 @@
 //! Every trait implemented from outside, with what the crate makes public alone, and run together.
 
-#![allow(clippy::unwrap_used, clippy::expect_used)]
+#![allow(clippy::unwrap_used)]
 
 use std::f64::consts::PI;
 
@@ -335,7 +335,7 @@ fn energy_is_kept_by_an_elastic_law_with_a_leapfrog_on_two_masses() {
         let reaction = damper.reaction(0).unwrap().force;
         assert!((reaction - watch.on_first).length() <= 1e-12 * reaction.length());
     }
-    assert!(contacts > 10_000, "{contacts}");
+    assert!(contacts > 5_000, "{contacts}");
     assert!(largest < 1e-3, "{largest}");
     assert_eq!(damper.outside(), 0);
 }
@@ -495,7 +495,7 @@ fn a_tangential_spring_makes_a_sphere_roll_down_a_slope() {
         .gravity(dvec3(slope.sin(), -slope.cos(), 0.0) * 9.81)
         .particles([Particle::new(radius, 2e-4)
             .unwrap()
-            .at(dvec3(-0.4, radius, 0.0))])
+            .at(dvec3(0.1, radius, 0.05))])
         .time_step(1e-5)
         .build()
         .unwrap();

@@ -3,6 +3,8 @@
 //!
 //! All points of Fig. 11 take minutes: `cargo test --release --test response -- --ignored`.
 
+#![allow(clippy::unwrap_used)]
+
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -61,7 +63,7 @@ fn settling(added: f64, frequency: f64, constants: f64) -> u32 {
 #[test]
 fn the_empty_container_responds_as_the_textbook_says() {
     // The second-order integrator needs the shorter step to be that close at the peak.
-    for frequency in [4.0, 5.0, 6.0, 6.027858, 7.0, 8.0] {
+    for frequency in [4.0, 5.0, 6.0, 6.027_858, 7.0, 8.0] {
         let discarded = settling(0.0, frequency, 14.0);
         let coarse = approximate().periods(discarded, 40);
         let fine = strict().periods(discarded, 40);
@@ -72,7 +74,7 @@ fn the_empty_container_responds_as_the_textbook_says() {
         ));
         textbook(&measure(&fine, 0, frequency));
     }
-    assert!((oscillator(0.0, 6.027858) - 28.79616).abs() < 1e-5);
+    assert!((oscillator(0.0, 6.027_858) - 28.796_16).abs() < 1e-5);
 }
 
 fn textbook(response: &Response) {

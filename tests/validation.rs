@@ -46,4 +46,7 @@ macro_rules! families {
     };
 }
 
-families! { contacts impulses chung_ooi oblique mfix }
+families! {
+    contacts impulses chung_ooi oblique mfix impact_damper inelastic paper_system integrators energy
+    rest defects
+}

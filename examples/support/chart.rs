@@ -97,7 +97,7 @@ impl Chart<'_> {
             };
             let length = if dash == 0 { 32 } else { dash };
             legend.label(&line.label).legend(move |(x, y)| {
-                DashedPathElement::new([(x, y), (x + 32, y)].into_iter(), length, length, style)
+                DashedPathElement::new([(x, y), (x + 32, y)], length, length, style)
             });
             if line.marked {
                 chart.draw_series(points.map(|point| Circle::new(point, 4, colour.filled())))?;

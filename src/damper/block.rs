@@ -220,7 +220,7 @@ impl<L: ContactLaw> Block<L> {
             let (slot, wall) = (touch.first as usize, touch.second);
             let grain = scene.grain(slot);
             let point = scene.wall_point(wall, grain.position);
-            let container = scene.room_of_wall(wall).motion.velocity;
+            let container = scene.room_of_wall(wall).moving(scene.elapsed);
             let contact = wall_contact(&grain, &point, container, scene.elapsed);
             let kind = scene.coefficients.wall(scene.species[slot]);
             let answer = answer::<L, END>(
@@ -335,6 +335,8 @@ fn answer_pairs<C: Cavity, L: ContactLaw, O: Observer, const END: bool>(
     let count = scene.position.len();
     let (position, velocity) = (&scene.position[..count], &scene.velocity[..count]);
     let (spin, radius) = (&scene.spin[..count], &scene.radius[..count]);
+    let acceleration = &scene.acceleration[..count];
+    let angular_acceleration = &scene.angular_acceleration[..count];
     let species = &scene.species[..count];
     let watched = END && observer.wants_contacts();
     let mut deepest = 0.0_f64;
@@ -348,6 +350,8 @@ fn answer_pairs<C: Cavity, L: ContactLaw, O: Observer, const END: bool>(
             position: position[slot],
             velocity: velocity[slot],
             spin: spin[slot],
+            acceleration: acceleration[slot],
+            angular_acceleration: angular_acceleration[slot],
             radius: radius[slot],
         };
         let pair = PairContact::new(&grain(i), &grain(j), &touch, scene.elapsed);

@@ -387,6 +387,7 @@ where
                 slots: slot..end,
                 first_wall: wall,
                 motion: Motion::default(),
+                start_velocity: DVec3::ZERO,
                 margin,
             });
             slot = end;

@@ -54,6 +54,9 @@ pub(crate) struct Scratch<L: ContactLaw> {
     memory: [Vec<Remembered<L::Memory>>; 2],
     /// Whether the candidates may still be used.
     pub(crate) listed: bool,
+    /// Where forces and torques are summed up; in turns with the columns of accelerations.
+    force: Vec<DVec3>,
+    torque: Vec<DVec3>,
     /// Velocities, spins and rates of the mount after the impulses so far.
     pub(crate) velocity: Vec<DVec3>,
     pub(crate) spin: Vec<DVec3>,
@@ -65,7 +68,13 @@ pub(crate) struct Scratch<L: ContactLaw> {
 impl<L: ContactLaw> Scratch<L> {
     /// Memory in bytes that it has reserved.
     pub(crate) fn reserved_bytes(&self) -> usize {
-        let vectors = [&self.reference, &self.velocity, &self.spin];
+        let vectors = [
+            &self.reference,
+            &self.force,
+            &self.torque,
+            &self.velocity,
+            &self.spin,
+        ];
         let remembered = self.memory.iter().map(Vec::capacity).sum::<usize>();
         size_of::<DVec3>() * vectors.map(Vec::capacity).iter().sum::<usize>()
             + size_of::<u32>() * (self.rows.capacity() + self.partners.capacity())
@@ -83,6 +92,8 @@ impl<L: ContactLaw> Default for Scratch<L> {
             reference: Vec::new(),
             memory: [Vec::new(), Vec::new()],
             listed: false,
+            force: Vec::new(),
+            torque: Vec::new(),
             velocity: Vec::new(),
             spin: Vec::new(),
             rates: Vec::new(),
@@ -151,6 +162,17 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             room.motion = Motion { position, velocity };
         }
         Ok(())
+    }
+
+    /// Notes how the containers move at the start of a step.
+    pub(crate) fn start_step(&mut self) {
+        let degrees = self.mount.degrees();
+        let coordinates = &self.mount_state.position[..degrees];
+        let rates = &self.mount_state.velocity[..degrees];
+        for (cavity, room) in self.world.rooms.iter_mut().enumerate() {
+            let motion = self.mount.motion(self.time, coordinates, rates, cavity);
+            room.start_velocity = motion.velocity;
+        }
     }
 
     /// Lists the pairs and walls that touch now. With `afresh`, candidates without a skin are listed
@@ -341,8 +363,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         elapsed: f64,
         observer: &mut O,
     ) -> Result<(), StepError> {
-        let mut force = std::mem::take(&mut self.particles.acceleration);
-        let mut torque = std::mem::take(&mut self.particles.angular_acceleration);
+        let mut force = std::mem::take(&mut self.scratch.force);
+        let mut torque = std::mem::take(&mut self.scratch.torque);
+        force.resize(self.particles.len(), DVec3::ZERO);
+        torque.resize(self.particles.len(), DVec3::ZERO);
         let scene = self.world.scene(&self.particles, elapsed);
         for block in &mut self.blocks {
             let slots = block.slots.clone();
@@ -365,8 +389,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             *torque *= *inverse;
             sum += *torque;
         }
-        self.particles.acceleration = force;
-        self.particles.angular_acceleration = torque;
+        self.scratch.force = std::mem::replace(&mut self.particles.acceleration, force);
+        let turning = &mut self.particles.angular_acceleration;
+        self.scratch.torque = std::mem::replace(turning, torque);
 
         self.wall_loads.fill(WallLoad::default());
         for block in &self.blocks {
@@ -394,8 +419,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             if let (true, Some(Place { slot, partner })) = (self.contained, block.escaped) {
                 return Err(self.escaped(slot, partner));
             }
-            // A bound that a NaN does not pass.
-            if !(block.largest_overlap <= self.overlap_limit) {
+            if block.largest_overlap.is_nan() || block.largest_overlap > self.overlap_limit {
                 return Err(self.overlaps(block));
             }
         }

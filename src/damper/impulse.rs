@@ -174,12 +174,17 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     let coordinates = &self.mount_state.position[..degrees];
                     let container = self.mount.motion(self.time, coordinates, rates, cavity);
                     let grain = struck(&scene, slot, velocity, spin);
-                    wall_contact(&grain, &point, container.velocity, time_step)
+                    wall_contact(&grain, &point, [container.velocity, DVec3::ZERO], time_step)
                 };
                 let mut contact = if sequential {
                     working(velocity, spin, rates)
                 } else {
-                    wall_contact(&scene.grain(slot), &point, room.motion.velocity, time_step)
+                    wall_contact(
+                        &struck(&scene, slot, scene.velocity, scene.spin),
+                        &point,
+                        [room.motion.velocity, DVec3::ZERO],
+                        time_step,
+                    )
                 };
                 contact.velocity_ahead = contact.velocity + gravity - self.scratch.gain[cavity];
                 contact.mobility = self.mount.mobility(cavity);
@@ -250,6 +255,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let grain = struck(touch.first as usize);
                 let point = scene.wall_point(touch.second, grain.position);
                 let container = scene.room_of_wall(touch.second).motion.velocity;
+                let container = [container, DVec3::ZERO];
                 let contact = wall_contact(&grain, &point, container, time_step);
                 let kind = scene
                     .coefficients
@@ -292,6 +298,8 @@ fn struck<C: Cavity, L: ContactLaw>(
     Grain {
         velocity: velocity[slot],
         spin: spin[slot],
+        acceleration: DVec3::ZERO,
+        angular_acceleration: DVec3::ZERO,
         ..scene.grain(slot)
     }
 }

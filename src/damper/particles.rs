@@ -17,9 +17,9 @@ pub(crate) struct Particles {
     pub(crate) velocity: Vec<DVec3>,
     /// rad/s.
     pub(crate) spin: Vec<DVec3>,
-    /// m/s^2; the contacts sum up forces here on the way.
+    /// m/s^2.
     pub(crate) acceleration: Vec<DVec3>,
-    /// rad/s^2; the contacts sum up torques here on the way.
+    /// rad/s^2.
     pub(crate) angular_acceleration: Vec<DVec3>,
     /// m.
     pub(crate) radius: Vec<f64>,

@@ -25,6 +25,8 @@ pub(crate) struct Room<C> {
     pub(crate) first_wall: u32,
     /// Where its container is, and how it moves.
     pub(crate) motion: Motion,
+    /// Its velocity at the start of the step.
+    pub(crate) start_velocity: DVec3,
     /// How much farther than the law's reach candidates are listed, m: they can be trusted while no
     /// particle has moved by half of it.
     pub(crate) margin: f64,
@@ -55,6 +57,8 @@ impl<C, L: ContactLaw> World<C, L> {
             position: &particles.position,
             velocity: &particles.velocity,
             spin: &particles.spin,
+            acceleration: &particles.acceleration,
+            angular_acceleration: &particles.angular_acceleration,
             radius: &particles.radius,
             species: &particles.species,
             number: &particles.number,
@@ -78,6 +82,9 @@ pub(crate) struct Scene<'a, C, L: ContactLaw> {
     pub(crate) position: &'a [DVec3],
     pub(crate) velocity: &'a [DVec3],
     pub(crate) spin: &'a [DVec3],
+    /// As they were evaluated last.
+    pub(crate) acceleration: &'a [DVec3],
+    pub(crate) angular_acceleration: &'a [DVec3],
     pub(crate) radius: &'a [f64],
     pub(crate) species: &'a [u32],
     pub(crate) number: &'a [u32],
@@ -93,6 +100,8 @@ pub(crate) struct Grain {
     pub(crate) position: DVec3,
     pub(crate) velocity: DVec3,
     pub(crate) spin: DVec3,
+    pub(crate) acceleration: DVec3,
+    pub(crate) angular_acceleration: DVec3,
     pub(crate) radius: f64,
 }
 
@@ -110,12 +119,16 @@ impl PairContact {
         let normal = (first.position - second.position) * touch.inverse;
         let turning = first.spin * first.radius + second.spin * second.radius;
         let velocity = first.velocity - second.velocity - turning.cross(normal);
+        let turning =
+            first.angular_acceleration * first.radius + second.angular_acceleration * second.radius;
+        let acceleration = first.acceleration - second.acceleration - turning.cross(normal);
         Self {
             contact: Contact {
                 normal,
                 overlap: first.radius + second.radius - touch.distance,
                 velocity,
                 velocity_ahead: velocity,
+                acceleration,
                 spins: [first.spin, second.spin],
                 elapsed,
                 mobility: DMat3::ZERO,
@@ -136,25 +149,39 @@ impl PairContact {
     }
 }
 
-/// The contact of a particle with a wall that stands to it as `wall`, in a container that moves with
-/// `container`.
+/// The contact of a particle with a wall that stands to it as `wall`, in a container of a velocity
+/// and an acceleration.
 #[inline(always)]
 pub(crate) fn wall_contact(
     grain: &Grain,
     wall: &WallPoint,
-    container: DVec3,
+    container: [DVec3; 2],
     elapsed: f64,
 ) -> Contact {
     let turning = grain.spin * grain.radius;
-    let velocity = grain.velocity - container - turning.cross(wall.normal);
+    let velocity = grain.velocity - container[0] - turning.cross(wall.normal);
+    let turning = grain.angular_acceleration * grain.radius;
+    let acceleration = grain.acceleration - container[1] - turning.cross(wall.normal);
     Contact {
         normal: wall.normal,
         overlap: grain.radius - wall.distance,
         velocity,
         velocity_ahead: velocity,
+        acceleration,
         spins: [grain.spin, DVec3::ZERO],
         elapsed,
         mobility: DMat3::ZERO,
+    }
+}
+
+impl<C> Room<C> {
+    /// Velocity of the container, and its mean acceleration since the start of the step.
+    #[inline(always)]
+    pub(crate) fn moving(&self, elapsed: f64) -> [DVec3; 2] {
+        let velocity = self.motion.velocity;
+        let gain = velocity - self.start_velocity;
+        let rate = if elapsed > 0.0 { 1.0 / elapsed } else { 0.0 };
+        [velocity, gain * rate]
     }
 }
 
@@ -166,6 +193,8 @@ impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
             position: self.position[slot],
             velocity: self.velocity[slot],
             spin: self.spin[slot],
+            acceleration: self.acceleration[slot],
+            angular_acceleration: self.angular_acceleration[slot],
             radius: self.radius[slot],
         }
     }

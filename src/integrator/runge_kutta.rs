@@ -12,62 +12,70 @@ pub struct RungeKutta4 {
     mount: Tableau<f64>,
 }
 
-/// Start of the step, and the weighted sums of the stages' velocities and accelerations.
+/// Positions and velocities at the start of a step, and the weighted sums of the slopes.
 #[derive(Debug, Clone, Default)]
 struct Tableau<T> {
-    start: Vec<[T; 2]>,
-    sums: Vec<[T; 2]>,
+    position: Weighted<T>,
+    velocity: Weighted<T>,
+}
+
+/// A column at the start of a step, and the weighted sum of its slopes.
+#[derive(Debug, Clone, Default)]
+struct Weighted<T> {
+    start: Vec<T>,
+    sum: Vec<T>,
+}
+
+impl<T: Coordinate> Weighted<T> {
+    fn begin(&mut self, column: &[T]) {
+        self.start.clear();
+        self.start.extend_from_slice(column);
+        self.sum.clear();
+        self.sum.resize(column.len(), T::default());
+    }
+
+    /// Adds `slope` with `weight`, and moves the column on by `reach` from the start along it.
+    fn stage(&mut self, column: &mut [T], slope: &[T], weight: f64, reach: f64) {
+        let kept = self.start.iter().zip(&mut self.sum);
+        for ((value, slope), (start, sum)) in column.iter_mut().zip(slope).zip(kept) {
+            *sum = *sum + *slope * weight;
+            *value = *start + *slope * reach;
+        }
+    }
+
+    /// Adds the last `slope`, and moves the column from the start along the sum.
+    fn finish(&self, column: &mut [T], slope: &[T], weight: f64) {
+        let kept = self.start.iter().zip(&self.sum);
+        for ((value, slope), (start, sum)) in column.iter_mut().zip(slope).zip(kept) {
+            *value = *start + *sum + *slope * weight;
+        }
+    }
 }
 
 impl<T: Coordinate> Tableau<T> {
     fn begin(&mut self, columns: &Columns<'_, T>) {
-        let position = columns.position.iter().copied();
-        let position = position.chain(std::iter::repeat(T::default()));
-        self.start.clear();
-        self.start.extend(
-            position
-                .zip(columns.velocity.iter().copied())
-                .map(<[T; 2]>::from),
-        );
-        self.sums.clear();
-        self.sums.resize(self.start.len(), [T::default(); 2]);
+        self.position.begin(columns.position);
+        self.velocity.begin(columns.velocity);
     }
 
-    /// Adds the stage just evaluated with `weight` to the sums, and moves on by `reach` from the
-    /// start along its slope.
     fn stage(&mut self, columns: Columns<'_, T>, weight: f64, reach: f64) {
-        for (n, (v, a)) in columns
-            .velocity
-            .iter_mut()
-            .zip(columns.acceleration)
-            .enumerate()
-        {
-            let [x0, v0] = self.start[n];
-            let [sum_v, sum_a] = &mut self.sums[n];
-            *sum_v = *sum_v + *v * weight;
-            *sum_a = *sum_a + *a * weight;
-            if let Some(x) = columns.position.get_mut(n) {
-                *x = x0 + *v * reach;
-            }
-            *v = v0 + *a * reach;
-        }
+        let Columns {
+            position,
+            velocity,
+            acceleration,
+        } = columns;
+        self.position.stage(position, velocity, weight, reach);
+        self.velocity.stage(velocity, acceleration, weight, reach);
     }
 
-    /// Adds the last stage, and moves from the start along the weighted slopes.
     fn finish(&self, columns: Columns<'_, T>, weight: f64) {
-        for (n, (v, a)) in columns
-            .velocity
-            .iter_mut()
-            .zip(columns.acceleration)
-            .enumerate()
-        {
-            let [x0, v0] = self.start[n];
-            let [sum_v, sum_a] = self.sums[n];
-            if let Some(x) = columns.position.get_mut(n) {
-                *x = x0 + sum_v + *v * weight;
-            }
-            *v = v0 + sum_a + *a * weight;
-        }
+        let Columns {
+            position,
+            velocity,
+            acceleration,
+        } = columns;
+        self.position.finish(position, velocity, weight);
+        self.velocity.finish(velocity, acceleration, weight);
     }
 }
 

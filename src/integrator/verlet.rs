@@ -21,15 +21,19 @@ fn predict<T: Coordinate>(columns: Columns<'_, T>, kept: &mut Vec<T>, dt: f64) {
         velocity,
         acceleration,
     } = columns;
-    let half = 0.5 * dt;
-    for ((x, v), a) in position.iter_mut().zip(&*velocity).zip(acceleration) {
-        *x = *x + (*v + *a * half) * dt;
-    }
-    for (v, a) in velocity.iter_mut().zip(acceleration) {
-        *v = *v + *a * dt;
-    }
     kept.clear();
     kept.extend_from_slice(acceleration);
+    if position.is_empty() {
+        for (v, a) in velocity.iter_mut().zip(acceleration) {
+            *v = *v + *a * dt;
+        }
+        return;
+    }
+    let half = 0.5 * dt;
+    for ((x, v), a) in position.iter_mut().zip(velocity).zip(acceleration) {
+        *x = *x + (*v + *a * half) * dt;
+        *v = *v + *a * dt;
+    }
 }
 
 /// Turns the predicted velocities into v + (a + a') dt/2.

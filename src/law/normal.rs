@@ -156,13 +156,15 @@ impl NormalForce {
 
     #[inline(always)]
     pub(super) fn at(&self, coefficients: &NormalCoefficients, contact: &Contact) -> Normal {
-        let root = contact.overlap.sqrt();
+        // Rounding can leave touching bodies with an overlap of zero, or a hair less.
+        let overlap = contact.overlap.max(f64::MIN_POSITIVE);
+        let root = overlap.sqrt();
         let shape = match self.damping {
             Damping::Viscoelastic => root,
             Damping::Tsuji => root.sqrt(),
         };
         let resistance = coefficients.damping * shape;
-        let spring = coefficients.stiffness * contact.overlap * root;
+        let spring = coefficients.stiffness * overlap * root;
         let force = spring + resistance * contact.approach_speed();
         Normal {
             root,

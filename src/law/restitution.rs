@@ -11,8 +11,12 @@ const TRAVEL: f64 = 0.2;
 /// Fraction of the overlap that a contact without restitution gives back per step.
 const SETTLING: f64 = 0.02;
 
-/// Bodies that will touch within half a step are struck up to this multiple of the reference speed.
-const REACH: f64 = 2.0;
+/// Bodies that will touch within this part of a step are struck: the greatest overlap is then the
+/// travel of a quarter of a step, and what the impact itself takes.
+const AHEAD: f64 = 0.75;
+
+/// Bodies are struck ahead up to this multiple of the reference speed.
+const TOP_SPEED: f64 = 5.0;
 
 /// The restitution coefficient turned into a force over one step (the paper's Sec. 4.3), for any
 /// masses: the coarse law.
@@ -22,8 +26,8 @@ const REACH: f64 = 2.0;
 /// step (Eq. 12). As it stands in the paper the law lets resting particles sink, by g dt/(1 + e) in
 /// velocity and layer, until they leave through the floor. The default form differs in this:
 ///
-/// - Bodies are struck when they will touch within half a step, so that impacts come neither early nor
-///   late on the average, and overlaps stay small.
+/// - Bodies are struck when they will touch within three quarters of a step, so that overlaps stay
+///   small; impacts come a quarter of a step early on the average.
 /// - Contacts are struck one after the other, to and fro, each with the velocities that those before
 ///   it left.
 /// - At a wall the impulse also takes up what gravity and the container's motion add over the step, so
@@ -32,7 +36,8 @@ const REACH: f64 = 2.0;
 ///   overlap within one step, whichever is larger: resting particles come out of each other again,
 ///   and no impact gains energy by it.
 /// - Coulomb friction: the tangential impulse ends the slip if it can, and is mu J otherwise; it
-///   turns the particles.
+///   turns the particles. Where the materials resist rolling, a couple of at most `mu_r r* J` does so;
+///   the two are found together, so that what they can hold rests.
 ///
 /// [`literal`](Self::literal) is the paper's form.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,6 +61,8 @@ pub struct RestitutionCoefficients {
     turning: f64,
     /// Sum of the inverse moments of inertia, 1/(kg m^2).
     inverse_inertia: f64,
+    /// Relative spin per unit tangential impulse, and slip per unit angular impulse, in 1/(kg m).
+    coupling: f64,
     smaller_radius: f64,
 }
 
@@ -101,6 +108,28 @@ impl RestitutionImpulse {
     }
 }
 
+impl RestitutionCoefficients {
+    /// Tangential and angular impulse that end slip and rolling together, as far as `impulse` (N s)
+    /// along the normal lets friction and rolling resistance reach. `yielding` is slip per unit
+    /// tangential impulse in 1/kg.
+    fn roll(&self, contact: &Contact, slip: DVec3, yielding: f64, impulse: f64) -> [DVec3; 2] {
+        let (across, along) = (self.friction * impulse, self.rolling_arm * impulse);
+        let (normal, coupling) = (contact.normal, self.coupling);
+        // Spins and couples turned into the tangent plane: a quarter turn about the normal.
+        let rolling = (contact.spins[0] - contact.spins[1]).cross(normal);
+        let determinant = yielding * self.inverse_inertia - coupling * coupling;
+        let stop = -(slip * coupling + rolling * yielding) / determinant;
+        let mut turn = stop.clamp_length_max(along);
+        let mut push = (turn * coupling - slip) / yielding;
+        if push.length() > across {
+            push = push.clamp_length_max(across);
+            turn = (push * coupling - rolling) / self.inverse_inertia;
+            turn = turn.clamp_length_max(along);
+        }
+        [push, normal.cross(turn)]
+    }
+}
+
 /// Inverse moment of inertia of a solid sphere, 1/(kg m^2); zero for a wall.
 fn inverse_inertia(radius: f64, mass: f64) -> f64 {
     2.5 / (mass * radius * radius)
@@ -131,12 +160,13 @@ impl ContactLaw for RestitutionImpulse {
             turning: 2.5 / first.mass + 2.5 / second.mass,
             inverse_inertia: inverse_inertia(first.radius, first.mass)
                 + inverse_inertia(second.radius, second.mass),
+            coupling: 2.5 / (first.mass * first.radius) - 2.5 / (second.mass * second.radius),
             smaller_radius: first.radius.min(second.radius),
         })
     }
 
     #[inline]
-    fn force(&self, own: &Self::Coefficients, contact: &Contact, _: &()) -> ContactForce {
+    fn force(&self, own: &Self::Coefficients, contact: &Contact, (): &()) -> ContactForce {
         let rate = 1.0 / contact.elapsed;
         let normal = contact.normal;
         let yielding = |along: DVec3| own.inverse_mass + along.dot(contact.mobility * along);
@@ -146,11 +176,15 @@ impl ContactLaw for RestitutionImpulse {
             return ContactForce::new(impulse * rate, DVec3::ZERO);
         }
         let ahead = -contact.velocity_ahead.dot(normal);
-        if ahead <= 0.0 || contact.overlap < -0.5 * approach.max(ahead) * contact.elapsed {
+        if ahead <= 0.0 || contact.overlap < -AHEAD * approach.max(ahead) * contact.elapsed {
             return ContactForce::default();
         }
         let rebound = own.restitution * approach.max(0.0);
-        let correction = own.restitution.max(SETTLING) * contact.overlap.max(0.0) * rate;
+        // A completely inelastic impact leaves no speed: the half step that it may come late does not
+        // count as sunk, and only what presses on is lifted, by no more than it presses.
+        let sunk = (contact.overlap * rate - 0.5 * approach.max(0.0)).max(0.0);
+        let lifting = (SETTLING * sunk).min(ahead);
+        let correction = (own.restitution * contact.overlap.max(0.0) * rate).max(lifting);
         let impulse = (ahead + rebound.max(correction)) / yielding(normal);
         let mut force = ContactForce::new(impulse * rate, DVec3::ZERO);
         let slip = contact.velocity_ahead + ahead * normal;
@@ -161,12 +195,11 @@ impl ContactLaw for RestitutionImpulse {
             force.tangential = direction * (-rate * sticking.min(own.friction * impulse));
         }
         if own.rolling_arm > 0.0 {
-            let rolling = contact.spins[0] - contact.spins[1];
-            let rolling = rolling - normal * rolling.dot(normal);
-            let speed = rolling.length();
-            let stopping = speed / own.inverse_inertia;
-            let couple = stopping.min(own.rolling_arm * impulse);
-            force.couple = rolling * (-rate * couple / speed.max(f64::MIN_POSITIVE));
+            let direction = slip.try_normalize().unwrap_or_default();
+            let yielding = yielding(direction) + own.turning;
+            let [tangential, couple] = own.roll(contact, slip, yielding, impulse);
+            force.tangential = tangential * rate;
+            force.couple = couple * rate;
         }
         force
     }
@@ -183,7 +216,7 @@ impl ContactLaw for RestitutionImpulse {
         if self.literal {
             0.0
         } else {
-            REACH * self.reference_speed * time_step
+            AHEAD * TOP_SPEED * self.reference_speed * time_step
         }
     }
 

@@ -2,145 +2,23 @@ use glam::DVec3;
 
 use super::{ContactEvent, Frame, Observer};
 use crate::contact::Stored;
-use crate::damper::Partner;
 use crate::mount::MountEnergy;
 
-/// Energies at an instant, in J.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[non_exhaustive]
-pub struct Energies {
-    /// Kinetic energy of the mount.
-    pub mount: f64,
-    /// Potential energy of the mount's springs.
-    pub spring: f64,
-    /// Kinetic energy of the particles' centres.
-    pub translation: f64,
-    /// Kinetic energy of the particles' spin.
-    pub spin: f64,
-    /// Potential energy of the particles in gravity, zero at the origin of the fixed frame.
-    pub gravity: f64,
-    /// Elastic energy in contacts.
-    pub contacts: f64,
-}
+mod accounts;
+mod touch;
 
-impl Energies {
-    /// Their sum in J.
-    #[must_use]
-    pub fn total(&self) -> f64 {
-        self.mount + self.spring + self.translation + self.spin + self.gravity + self.contacts
-    }
-}
-
-/// Energies lost in contacts, in J.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[non_exhaustive]
-pub struct Losses {
-    /// Normal damping between particles.
-    pub pair_normal: f64,
-    /// Friction between particles, rolling resistance and tangential damping included.
-    pub pair_friction: f64,
-    /// Normal damping at walls.
-    pub wall_normal: f64,
-    /// Friction at walls, rolling resistance and tangential damping included.
-    pub wall_friction: f64,
-}
-
-impl Losses {
-    /// Their sum in J.
-    #[must_use]
-    pub fn total(&self) -> f64 {
-        self.pair_normal + self.pair_friction + self.wall_normal + self.wall_friction
-    }
-
-    fn add(&mut self, partner: Partner, normal: f64, friction: f64) {
-        match partner {
-            Partner::Particle(_) => {
-                self.pair_normal += normal;
-                self.pair_friction += friction;
-            }
-            Partner::Wall(_) => {
-                self.wall_normal += normal;
-                self.wall_friction += friction;
-            }
-        }
-    }
-}
-
-/// A contact's forces that take energy away.
-#[derive(Debug, Clone, Copy)]
-struct Loss {
-    particle: usize,
-    partner: Partner,
-    cavity: usize,
-    normal: DVec3,
-    /// What the normal force has besides its elastic part, N.
-    damping: f64,
-    tangential: DVec3,
-    couple: DVec3,
-    working_velocity: DVec3,
-    working_spin: DVec3,
-}
-
-impl Loss {
-    /// Powers in W lost along the normal and across it at a relative velocity and spin.
-    fn powers(&self, velocity: DVec3, spin: DVec3) -> [f64; 2] {
-        [
-            -self.damping * self.normal.dot(velocity),
-            -self.tangential.dot(velocity) - self.couple.dot(spin),
-        ]
-    }
-}
-
-/// Where velocities were at the end of a step.
-#[derive(Debug, Clone, Default)]
-struct Pace {
-    radius: Vec<f64>,
-    velocity: Vec<DVec3>,
-    spin: Vec<DVec3>,
-    container: Vec<DVec3>,
-}
-
-impl Pace {
-    fn read(&mut self, frame: &Frame<'_>) {
-        self.radius.clear();
-        self.velocity.clear();
-        self.spin.clear();
-        for particle in frame.particles() {
-            self.radius.push(particle.radius);
-            self.velocity.push(particle.velocity);
-            self.spin.push(particle.spin);
-        }
-        self.container.clear();
-        let containers = (0..frame.cavities()).map_while(|cavity| frame.container(cavity));
-        self.container
-            .extend(containers.map(|motion| motion.velocity));
-    }
-
-    /// Velocity of the first body's surface relative to the second's, and relative spin.
-    fn of(&self, loss: &Loss) -> [DVec3; 2] {
-        let (first, spin) = (self.velocity[loss.particle], self.spin[loss.particle]);
-        let turning = spin * self.radius[loss.particle];
-        match loss.partner {
-            Partner::Particle(other) => {
-                let turning = turning + self.spin[other] * self.radius[other];
-                let surface = first - self.velocity[other] - turning.cross(loss.normal);
-                [surface, spin - self.spin[other]]
-            }
-            Partner::Wall(_) => {
-                let surface = first - self.container[loss.cavity] - turning.cross(loss.normal);
-                [surface, spin]
-            }
-        }
-    }
-}
+pub use accounts::{Energies, Losses};
+use touch::{Pace, Touch, class};
 
 /// State at the end of the last step.
 #[derive(Debug, Clone, Copy, Default)]
 struct Balance {
     energies: Energies,
     mount: MountEnergy,
-    /// Energy of tangential stretch in pairs and at walls, J.
-    stretched: [f64; 2],
+    /// What pairs and walls hold.
+    stored: [Stored; 2],
+    /// Power of normal damping by itself, W.
+    damping: f64,
 }
 
 /// Accounts for the energy of a damper, from the forces that its steps are made with.
@@ -151,30 +29,57 @@ struct Balance {
 /// ```
 /// where each item is counted by itself, and the residual is what the time step leaves open.
 ///
-/// Work in contacts is force times velocity, each the mean of its values at both ends of the step;
-/// Verlet's method changes kinetic energy by just that. Normal loss is the work of what the normal
-/// force has besides its [elastic part](Stored); friction loss is the work against slip and rolling,
-/// less what the tangential stretch gained. Powers of the mount are summed by the trapezoidal rule.
+/// Work in contacts is force times velocity, each the mean of its values at both ends of the step:
+/// Verlet's method changes kinetic energy by just that. What other integrators do at their stages
+/// besides is known from the change of momentum, and is shared among the normal forces. Losses are
+/// that work less what the contacts [store](Stored): along the normal, and across it by slip and
+/// rolling. So the losses along the normal hold what a coarse step takes from elastic forces, too;
+/// [`integration_loss`](Self::integration_loss) tells it apart: with the paper's damper at resonance
+/// (6 Hz, 20 particles, 40 periods) it is 3.0 % of the input at a step of 2e-5 s, six to an impact,
+/// and falls as the step squared, to 0.04 % at 2.5e-6 s. Powers of the mount are summed by the
+/// trapezoidal rule.
 /// Where a mount has no coordinates, the input is the work of moving its containers against the
 /// particles.
 ///
 /// Under an impulse law each impulse is counted with the kinetic energy it takes, and the account
 /// closes to rounding but for the mount's own forces. Overlaps that such a law pushes out again show
 /// as a small gain.
+///
+/// ```
+/// use particle_damper::excitation::Harmonic;
+/// use particle_damper::{Damper, EnergyLedger, HertzTsuji, Material, Particle, SingleDof, Slot};
+/// use particle_damper::glam::dvec3;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let mut damper = Damper::builder(Slot::paper(), HertzTsuji::new(Material::acrylic()))
+///     .mount(SingleDof::paper().excited_by(Harmonic::new(0.25, 6.0)?))
+///     .particles([Particle::new(3e-3, 0.2e-3)?.at(dvec3(0.03, 0.0031, 0.0))])
+///     .time_step(2e-5)
+///     .build()?;
+/// let mut ledger = EnergyLedger::new();
+/// for _ in 0..20_000 {
+///     damper.step_watched(&mut ledger)?;
+/// }
+/// assert!(ledger.residual().abs() < 1e-5 * ledger.input());
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct EnergyLedger {
     open: bool,
+    held: bool,
     opening: Energies,
     last: Balance,
     input: f64,
     structure: f64,
     losses: Losses,
     stored: [Stored; 2],
-    before: Vec<Loss>,
-    now: Vec<Loss>,
+    damping: f64,
+    touches: Vec<Touch>,
+    touches_before: Vec<Touch>,
+    /// At the end of the step, and the mean over it.
     pace: Pace,
     mean: Pace,
-    loads: Vec<DVec3>,
 }
 
 impl EnergyLedger {
@@ -202,6 +107,17 @@ impl EnergyLedger {
         self.losses
     }
 
+    /// Part of the [losses](Self::losses) along the normal, in J, that the law's damping does not
+    /// explain: what the time step, too coarse for the contacts, takes from elastic forces
+    /// (negative: gives). Zero under an impulse law.
+    #[must_use]
+    pub fn integration_loss(&self) -> f64 {
+        if self.held {
+            return 0.0;
+        }
+        self.losses.pair_normal + self.losses.wall_normal - self.damping
+    }
+
     /// Energies when the account was opened.
     #[must_use]
     pub const fn opening(&self) -> Energies {
@@ -221,66 +137,71 @@ impl EnergyLedger {
         self.input - change - self.structure - self.losses.total()
     }
 
-    /// Turns the velocities of the last step into the means over this one.
-    fn average(&mut self, frame: &Frame<'_>) {
-        std::mem::swap(&mut self.pace, &mut self.mean);
-        self.pace.read(frame);
-        for (mean, now) in [
-            (&mut self.mean.velocity, &self.pace.velocity),
-            (&mut self.mean.spin, &self.pace.spin),
-            (&mut self.mean.container, &self.pace.container),
-        ] {
-            for (mean, now) in mean.iter_mut().zip(now) {
-                *mean = 0.5 * (*mean + *now);
-            }
+    /// Works of the contacts on the particles over the step, by the change of their momentum: what
+    /// the containers give, and what is taken from motion relative to them. Whatever the integrator,
+    /// these are the works of the forces that it used.
+    fn exchanged(&self, frame: &Frame<'_>) -> [f64; 2] {
+        let fall = frame.gravity() * frame.time_step();
+        let (mut given, mut taken) = (0.0, 0.0);
+        for (now, mean) in self.pace.particles.iter().zip(&self.mean.particles) {
+            let impulse = now.mass * (2.0 * (now.velocity - mean.velocity) - fall);
+            let container = self.mean.containers[now.cavity as usize];
+            given += impulse.dot(container);
+            taken -= impulse.dot(mean.velocity - container);
+            taken -= now.inertia() * 2.0 * (now.spin - mean.spin).dot(mean.spin);
         }
+        [given, taken]
     }
 
-    fn count_contacts(&mut self, frame: &Frame<'_>) {
+    fn count_contacts(&mut self, frame: &Frame<'_>, now: &Balance, all: f64) {
         let dt = frame.time_step();
+        let mut taken = [[0.0; 2]; 2];
+        let mut take = |touch: &Touch, [velocity, spin]: [DVec3; 2], time: f64| {
+            let powers = touch.powers(velocity, spin);
+            let sums = &mut taken[class(touch.partner)];
+            sums[0] += powers[0] * time;
+            sums[1] += powers[1] * time;
+        };
         if frame.holds_forces() {
-            for loss in &self.now {
-                let [normal, friction] = loss.powers(loss.working_velocity, loss.working_spin);
-                self.losses.add(loss.partner, dt * normal, dt * friction);
+            for touch in &self.touches {
+                take(touch, [touch.working_velocity, touch.working_spin], dt);
             }
         } else {
-            for loss in self.before.iter().chain(&self.now) {
-                let [velocity, spin] = self.mean.of(loss);
-                let [normal, friction] = loss.powers(velocity, spin);
-                let half = 0.5 * dt;
-                self.losses
-                    .add(loss.partner, half * normal, half * friction);
+            for touch in self.touches_before.iter().chain(&self.touches) {
+                take(touch, self.mean.of(touch), 0.5 * dt);
             }
+            let seen: f64 = taken.as_flattened().iter().sum();
+            let [pairs, walls] = taken.map(|[normal, _]| normal.abs() + f64::MIN_POSITIVE);
+            taken[0][0] += (all - seen) * (pairs / (pairs + walls));
+            taken[1][0] += (all - seen) * (walls / (pairs + walls));
+            self.damping += 0.5 * dt * (self.last.damping + now.damping);
         }
+        for (class, taken) in taken.iter_mut().enumerate() {
+            let (before, now) = (&self.last.stored[class], &now.stored[class]);
+            taken[0] -= now.normal - before.normal;
+            taken[1] -= now.tangential - before.tangential;
+        }
+        self.losses.add(&taken);
     }
 
-    fn count_input(&mut self, frame: &Frame<'_>, mount: &MountEnergy) {
-        let dt = frame.time_step();
+    fn count_input(&mut self, frame: &Frame<'_>, mount: &MountEnergy, given: f64) {
+        let half = 0.5 * frame.time_step();
         let before = &self.last.mount;
-        self.input += 0.5 * dt * (before.input + mount.input);
-        self.structure += 0.5 * dt * (before.dissipation + mount.dissipation);
-        for (cavity, last) in self.loads.iter_mut().enumerate() {
-            let load = frame.load(cavity).unwrap_or_default();
-            if frame.coordinates().is_empty() {
-                let mean = if frame.holds_forces() {
-                    load
-                } else {
-                    0.5 * (load + *last)
-                };
-                self.input -= dt * mean.dot(self.mean.container[cavity]);
-            }
-            *last = load;
+        self.input += half * (before.input + mount.input);
+        self.structure += half * (before.dissipation + mount.dissipation);
+        if frame.coordinates().is_empty() {
+            self.input += given;
         }
     }
 
-    fn balance(&self, frame: &Frame<'_>) -> Balance {
+    fn balance(&mut self, frame: &Frame<'_>) -> Balance {
         let mount = frame.mount_energy();
         let mut energies = Energies {
             mount: mount.kinetic,
             spring: mount.potential,
             ..Energies::default()
         };
-        for particle in frame.particles() {
+        for particle in &self.pace.particles {
             energies.translation += 0.5 * particle.mass * particle.velocity.length_squared();
             energies.spin += 0.5 * particle.inertia() * particle.spin.length_squared();
             energies.gravity -= particle.mass * frame.gravity().dot(particle.position);
@@ -288,10 +209,15 @@ impl EnergyLedger {
         for stored in &self.stored {
             energies.contacts += stored.normal + stored.tangential;
         }
+        let damping = |touch: &Touch| {
+            let [velocity, _] = self.pace.of(touch);
+            -touch.damping * touch.normal.dot(velocity)
+        };
         Balance {
             energies,
             mount,
-            stretched: self.stored.map(|stored| stored.tangential),
+            stored: std::mem::take(&mut self.stored),
+            damping: self.touches.iter().map(damping).sum(),
         }
     }
 }
@@ -302,42 +228,28 @@ impl Observer for EnergyLedger {
     }
 
     fn contact(&mut self, event: &ContactEvent) {
-        self.now.push(Loss {
-            particle: event.particle,
-            partner: event.partner,
-            cavity: event.cavity,
-            normal: event.contact.normal,
-            damping: event.force.normal - event.stored.normal_force,
-            tangential: event.force.tangential,
-            couple: event.force.couple,
-            working_velocity: event.working_velocity,
-            working_spin: event.working_spin,
-        });
-        let sum = &mut self.stored[usize::from(matches!(event.partner, Partner::Wall(_)))];
+        self.touches.push(Touch::new(event));
+        let sum = &mut self.stored[class(event.partner)];
         sum.normal += event.stored.normal;
         sum.tangential += event.stored.tangential;
     }
 
     fn step(&mut self, frame: &Frame<'_>) {
+        std::mem::swap(&mut self.pace, &mut self.mean);
+        self.pace.read(frame);
+        self.mean.average(&self.pace);
         let balance = self.balance(frame);
         if self.open {
-            self.average(frame);
-            self.count_contacts(frame);
-            self.count_input(frame, &balance.mount);
-            let gained = |n: usize| balance.stretched[n] - self.last.stretched[n];
-            self.losses.pair_friction -= gained(0);
-            self.losses.wall_friction -= gained(1);
+            let [given, taken] = self.exchanged(frame);
+            self.count_contacts(frame, &balance, taken);
+            self.count_input(frame, &balance.mount, given);
         } else {
             self.open = true;
             self.opening = balance.energies;
-            self.pace.read(frame);
-            self.mean.clone_from(&self.pace);
-            let loads = (0..frame.cavities()).map_while(|cavity| frame.load(cavity));
-            self.loads = loads.collect();
         }
         self.last = balance;
-        self.stored = [Stored::default(); 2];
-        std::mem::swap(&mut self.before, &mut self.now);
-        self.now.clear();
+        self.held = frame.holds_forces();
+        std::mem::swap(&mut self.touches, &mut self.touches_before);
+        self.touches.clear();
     }
 }

@@ -6,9 +6,16 @@ pub(crate) mod setup;
 
 pub(crate) mod chung_ooi;
 pub(crate) mod contacts;
+pub(crate) mod defects;
+pub(crate) mod energy;
+pub(crate) mod impact_damper;
 pub(crate) mod impulses;
+pub(crate) mod inelastic;
+pub(crate) mod integrators;
 pub(crate) mod mfix;
 pub(crate) mod oblique;
+pub(crate) mod paper_system;
+pub(crate) mod rest;
 
 use case::Case;
 
@@ -29,4 +36,11 @@ pub(crate) const FAMILIES: &[Family] = &[
     ("chung_ooi", chung_ooi::cases),
     ("oblique", oblique::cases),
     ("mfix", mfix::cases),
+    ("impact_damper", impact_damper::cases),
+    ("inelastic", inelastic::cases),
+    ("paper_system", paper_system::cases),
+    ("integrators", integrators::cases),
+    ("energy", energy::cases),
+    ("rest", rest::cases),
+    ("defects", defects::cases),
 ];

@@ -46,23 +46,26 @@ pub(crate) fn rebound(law: Law, degrees: f64, mu: f64, e: f64) -> [f64; 3] {
     let glass = materials.add(material(70e9, 0.25, e, mu));
     let (sine, cosine) = degrees.to_radians().sin_cos();
     let body = Particle::with_density(2.5e-3, 4000.0).unwrap();
+    let normal = 3.9 * cosine;
     let k = hertz_constant((2.5e-3, 380e9, 0.23), (f64::INFINITY, 70e9, 0.25));
-    let dt = hertz_duration(k, body.mass, 3.9 * cosine) / 400.0;
+    let dt = hertz_duration(k, body.mass, normal) / 400.0;
     let bodies = [body.moving(3.9 * DVec3::new(sine, -cosine, 0.0))];
-    let gap = 0.3 * 3.9 * cosine * dt;
+    let gap = 0.3 * normal * dt;
     let verlet = VelocityVerlet::default();
     let after = match law {
         Law::HertzTsuji => {
-            let law = HertzTsuji::new(materials).reference_speed(3.9).unwrap();
+            let law = HertzTsuji::new(materials).reference_speed(normal).unwrap();
             collide(law, glass, verlet, dt, gap, &bodies)
         }
         Law::HertzMindlin => {
-            let law = HertzMindlin::new(materials).reference_speed(3.9).unwrap();
+            let law = HertzMindlin::new(materials)
+                .reference_speed(normal)
+                .unwrap();
             collide(law, glass, verlet, dt, gap, &bodies)
         }
         Law::RestitutionImpulse => {
             let law = RestitutionImpulse::new(materials)
-                .reference_speed(3.9)
+                .reference_speed(normal)
                 .unwrap();
             collide(law, glass, verlet, dt, gap, &bodies)
         }

@@ -1,0 +1,179 @@
+//! No law creates energy: single impacts of every kind, and several contacts at once.
+
+use particle_damper::glam::{DVec3, dvec3};
+use particle_damper::{
+    AllPairs, BuildError, Builder, ContactLaw, Cuboid, Damper, Driven, HertzMindlin, HertzTsuji,
+    Particle, RestitutionImpulse, VelocityVerlet,
+};
+
+use super::Form;
+use super::case::Case;
+use super::oblique::Law;
+use super::setup::{acrylic, paper_particle};
+
+const CLAUSIUS: &str = "kinetic energy after minus before, over before: never above zero";
+
+/// An impact at random: every number in its range.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Throw {
+    /// Relative speed in m/s, at most 1.
+    pub(crate) speed: f64,
+    /// Angle from the normal in degrees.
+    pub(crate) degrees: f64,
+    pub(crate) restitution: f64,
+    pub(crate) friction: f64,
+    /// Surface speeds of the spins over the relative speed, about z.
+    pub(crate) spins: [f64; 2],
+    /// Mass of the second body over the first's.
+    pub(crate) ratio: f64,
+    /// Time step as a part of the longest that the law accepts.
+    pub(crate) part: f64,
+    /// Part of a step from first touch.
+    pub(crate) phase: f64,
+}
+
+/// What a thrown particle meets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Target {
+    Wall,
+    /// Particles that touch one another in a row across the line of impact.
+    Particles(usize),
+}
+
+/// Builds with `part` of the longest step that the law accepts.
+fn with_part<L: ContactLaw + Clone>(
+    make: impl Fn() -> Builder<Cuboid, L, Driven, AllPairs, VelocityVerlet>,
+    part: f64,
+) -> Damper<Cuboid, L, Driven, AllPairs, VelocityVerlet> {
+    let limit = match make().time_step(1e9).build() {
+        Err(BuildError::TimeStepTooLong { limit, .. }) => limit,
+        other => panic!("a step of 1e9 s is too long: {:?}", other.err()),
+    };
+    make().time_step(part * limit).build().unwrap()
+}
+
+/// Gain of kinetic energy, over what there was, in an impact.
+fn gain_under<L: ContactLaw + Clone>(law: &L, throw: &Throw, target: Target) -> f64 {
+    let first = paper_particle();
+    let radius = first.radius * throw.ratio.cbrt();
+    let side = 60.0 * first.radius.max(radius);
+    let centre = DVec3::splat(0.5 * side);
+    let (sine, cosine) = throw.degrees.to_radians().sin_cos();
+    let velocity = throw.speed * dvec3(sine, -cosine, 0.0);
+    let spin = |n: usize, radius: f64| DVec3::Z * (throw.spins[n] * throw.speed / radius);
+    let first = first.moving(velocity).spinning(spin(0, first.radius));
+    let place = |dt: f64| {
+        let gap = throw.phase * throw.speed * cosine * dt;
+        let mut bodies = Vec::new();
+        match target {
+            Target::Wall => {
+                let height = first.radius + gap;
+                bodies.push(first.at(dvec3(centre.x, height, centre.z)));
+            }
+            Target::Particles(count) => {
+                // Neighbours along x touch; the thrown one comes down on the middle of the row.
+                let other = Particle::new(radius, first.mass * throw.ratio).unwrap();
+                let other = other.spinning(spin(1, radius));
+                let reach = first.radius + radius;
+                let (offset, rise) = match count {
+                    1 => (0.0, reach),
+                    2 => (-radius, (reach * reach - radius * radius).sqrt()),
+                    _ => (-2.0 * radius, reach),
+                };
+                bodies.push(first.at(centre + DVec3::Y * (rise + gap)));
+                for n in 0..count {
+                    let along = offset + 2.0 * radius * n as f64 * (1.0 + 1e-12);
+                    bodies.push(other.at(centre + DVec3::X * along));
+                }
+            }
+        }
+        bodies
+    };
+    let make = |dt: f64| {
+        move || {
+            Damper::builder(Cuboid::new(DVec3::splat(side)).unwrap(), law.clone())
+                .detector(AllPairs)
+                .gravity(DVec3::ZERO)
+                .particles(place(dt))
+        }
+    };
+    let step = with_part(make(0.0), throw.part).time_step();
+    let mut damper = with_part(make(step), throw.part);
+    let before = damper.kinetic_energy();
+    let (mut touched, mut apart) = (false, 0);
+    for _ in 0..20_000 {
+        damper.step().unwrap();
+        if damper.contacts() > 0 && damper.largest_overlap() > 0.0 {
+            (touched, apart) = (true, 0);
+        } else {
+            apart += 1;
+        }
+        if (touched && apart > 3) || apart > 200 {
+            break;
+        }
+    }
+    damper.kinetic_energy() / before - 1.0
+}
+
+/// Gain of kinetic energy, over what there was, in an impact under `law`.
+pub(crate) fn gain(law: Law, throw: &Throw, target: Target) -> f64 {
+    let material = acrylic(throw.restitution, throw.friction);
+    match law {
+        Law::HertzTsuji => gain_under(&HertzTsuji::new(material), throw, target),
+        Law::HertzMindlin => gain_under(&HertzMindlin::new(material), throw, target),
+        Law::RestitutionImpulse => gain_under(&RestitutionImpulse::new(material), throw, target),
+    }
+}
+
+/// A number between 0 and 1: the Weyl sequence of dimension `axis`.
+fn weyl(n: u32, axis: i32) -> f64 {
+    // Powers of the generalised golden ratio in nine dimensions.
+    (0.5 + f64::from(n) * 1.077_766_2_f64.powi(-axis)).fract()
+}
+
+/// Throw number `n` of an even sequence over all ranges.
+pub(crate) fn throw(n: u32, restitution: [f64; 2], part: [f64; 2]) -> Throw {
+    let between = |[low, high]: [f64; 2], axis| low + (high - low) * weyl(n, axis);
+    Throw {
+        speed: between([0.02, 1.0], 1),
+        degrees: between([0.0, 89.0], 2),
+        restitution: between(restitution, 3),
+        friction: between([0.0, 1.0], 4),
+        spins: [between([-2.0, 2.0], 5), between([-2.0, 2.0], 6)],
+        ratio: 10.0_f64.powf(between([-3.0, 3.0], 7)),
+        part: between(part, 8),
+        phase: between([0.0, 1.0], 9),
+    }
+}
+
+pub(crate) fn cases(form: Form) -> Vec<Case> {
+    let count = match form {
+        Form::Short => 300,
+        Form::Long => 10_000,
+    };
+    let mut cases = Vec::new();
+    for law in [Law::HertzTsuji, Law::HertzMindlin, Law::RestitutionImpulse] {
+        for target in [
+            Target::Wall,
+            Target::Particles(1),
+            Target::Particles(2),
+            Target::Particles(3),
+        ] {
+            for (range, part) in [
+                ([0.05, 0.9], [0.05, 0.5]),
+                ([0.05, 0.9], [0.5, 1.0]),
+                ([1.0, 1.0], [0.02, 0.05]),
+                ([1.0, 1.0], [0.5, 1.0]),
+            ] {
+                let gains = (0..count).map(|n| gain(law, &throw(n, range, part), target));
+                let worst = gains.fold(f64::NEG_INFINITY, f64::max);
+                let name = format!(
+                    "{law:?}, {target:?}, e {range:?}, steps {part:?} of the longest, {count} throws"
+                );
+                // Rounding, of as many steps as an impact takes.
+                cases.push(Case::bounded(name, CLAUSIUS, 1e-12, worst));
+            }
+        }
+    }
+    cases
+}
