@@ -2,7 +2,8 @@
 //!
 //! The picture is a drawing with its motion written into it (SVG, SMIL): sharp at any size, a few
 //! hundred kilobytes, and no library needed. A stroke on each particle shows how it turns.
-//! `cargo run --release --example animation` leaves `target/animation/bed.svg`.
+//! `cargo run --release --example animation` leaves `target/animation/bed.svg`, and
+//! the container's height in `container.csv`.
 
 #[path = "support/output.rs"]
 mod output;
@@ -43,7 +44,12 @@ impl Track {
             let _ = write!(angles, "{angle:.0};");
         }
         let (places, angles) = (animate("translate", &places), animate("rotate", &angles));
-        let _ = writeln!(picture, "<g>{places}<g>{angles}{drawing}</g></g>");
+        // Where it is for a viewer that shows no motion.
+        let (x, y) = self.places.first().copied().unwrap_or_default();
+        let _ = writeln!(
+            picture,
+            "<g transform=\"translate({x:.2} {y:.2})\">{places}<g>{angles}{drawing}</g></g>"
+        );
     }
 }
 
@@ -87,10 +93,10 @@ fn main() -> Result<(), Failure> {
     }
 
     let mut picture = String::from(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-8 -84 112 112\" width=\"900\">\n\
-         <rect x=\"-8\" y=\"-84\" width=\"112\" height=\"112\" fill=\"#fbfaf7\"/>\n",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-8 -128 76 160\" width=\"456\">\n\
+         <rect x=\"-8\" y=\"-128\" width=\"76\" height=\"160\" fill=\"#fbfaf7\"/>\n",
     );
-    let walls = "<rect y=\"-60\" width=\"96\" height=\"60\" fill=\"#eef2f6\" stroke=\"#33414e\" \
+    let walls = "<rect y=\"-96\" width=\"60\" height=\"96\" fill=\"#eef2f6\" stroke=\"#33414e\" \
                  stroke-width=\"1\"/>";
     container.draw(&mut picture, walls);
     for (track, particle) in tracks.iter().zip(damper.particles()) {
@@ -103,7 +109,11 @@ fn main() -> Result<(), Failure> {
         track.draw(&mut picture, &ball);
     }
     picture.push_str("</svg>\n");
-    let path = output::directory("animation")?.join("bed.svg");
+    let directory = output::directory("animation")?;
+    let rows = container.places.iter().enumerate();
+    let rows = rows.map(|(frame, (_, y))| format!("{:.3},{:.4}", frame as f64 / FRAMES as f64, -y));
+    output::write_table(&directory.join("container.csv"), "period,height_mm", rows)?;
+    let path = directory.join("bed.svg");
     fs::write(&path, picture)?;
     output::say_where("picture", &path);
     Ok(())

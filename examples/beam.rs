@@ -151,11 +151,11 @@ fn loss_factors(record: &[(f64, f64)]) -> Vec<(f64, f64)> {
         low = low.min(pair[1].1);
         high = high.max(pair[1].1);
     }
-    // Over eight swings, so that a single clash does not show.
-    let decrement = |pair: &[f64]| (pair[0] / pair[8]).ln() / (8.0 * std::f64::consts::PI);
-    let pairs = swings.windows(9).skip(1);
+    // Over four swings, so that a single clash does not show.
+    let decrement = |pair: &[f64]| (pair[0] / pair[4]).ln() / (4.0 * std::f64::consts::PI);
+    let pairs = swings.windows(5).skip(1);
     pairs
-        .map(|pair| (pair[4], decrement(pair).max(1e-5)))
+        .map(|pair| (pair[2], decrement(pair).max(1e-5)))
         .collect()
 }
 
@@ -209,8 +209,8 @@ fn main() -> Result<(), Failure> {
         (
             "loss.svg",
             ["amplitude (mm)", "loss factor"],
-            0.1..20.0,
-            5e-4..0.2,
+            1.0..25.0,
+            5e-4..0.1,
             [true; 2],
             &losses,
         ),

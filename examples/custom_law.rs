@@ -79,7 +79,7 @@ fn main() -> Result<(), Failure> {
         25
     };
     let names = [
-        "Walton & Braun, k2/k1 = 16/9",
+        "Walton & Braun, k2/k1 = 3/2",
         "c d^(1/2) d'",
         "c d^(1/4) d'",
     ];
@@ -99,7 +99,7 @@ fn main() -> Result<(), Failure> {
         let speed = 0.05 * 40_f64.powf(f64::from(point) / f64::from(points - 1));
         let spring = WaltonBraun {
             loading: 9e4,
-            unloading: 16e4,
+            unloading: 13.5e4,
         };
         let strict = || HertzTsuji::new(Material::acrylic());
         let found = [
