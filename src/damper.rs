@@ -19,6 +19,7 @@ mod builder;
 mod candidates;
 mod clock;
 mod coefficients;
+mod detection;
 mod engine;
 mod error;
 mod impulse;
@@ -26,6 +27,7 @@ mod particles;
 mod scene;
 mod setup;
 mod snapshot;
+mod step;
 mod view;
 
 pub use builder::Builder;
@@ -37,8 +39,9 @@ pub use snapshot::{RestoreError, Snapshot};
 const MOST_STEPS: f64 = 1e9;
 
 use clock::Clock;
-use engine::{Engine, Step};
+use engine::Engine;
 use setup::Setup;
+use step::Step;
 
 /// What a particle touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

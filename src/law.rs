@@ -52,8 +52,8 @@ pub enum LawError {
 /// The force between two bodies that touch.
 ///
 /// # Using
-/// [`HertzTsuji`](crate::HertzTsuji) is the strict law of the paper,
-/// [`RestitutionImpulse`](crate::RestitutionImpulse) the one that allows a coarser step. Pass one to
+/// [`HertzTsuji`] is the strict law of the paper,
+/// [`RestitutionImpulse`] the one that allows a coarser step. Pass one to
 /// [`Builder::law`](crate::Builder::law).
 ///
 /// # Implementing

@@ -9,8 +9,8 @@ use super::error::StepError;
 use super::particles::Particles;
 use super::scene::{Room, WallLoad, World};
 use crate::cavity::Cavity;
-use crate::detector::{Bed, Detector, Pairs};
-use crate::integrator::{Columns, Motions, Stage, System};
+use crate::detector::{Detector, Pairs};
+use crate::integrator::Stage;
 use crate::law::{ContactLaw, Evaluation};
 use crate::mount::{Motion, Mount};
 use crate::observer::Observer;
@@ -45,13 +45,13 @@ impl MountState {
 /// What stays between steps only to save work.
 #[derive(Debug, Clone)]
 pub(crate) struct Scratch<L: ContactLaw> {
-    proposals: Pairs,
+    pub(crate) proposals: Pairs,
     /// Proposals by their lower slot: ends of the rows, and the higher slots.
-    rows: Vec<u32>,
-    partners: Vec<u32>,
+    pub(crate) rows: Vec<u32>,
+    pub(crate) partners: Vec<u32>,
     /// Where each particle was in its container's frame when the candidates were listed.
-    reference: Vec<DVec3>,
-    memory: [Vec<Remembered<L::Memory>>; 2],
+    pub(crate) reference: Vec<DVec3>,
+    pub(crate) memory: [Vec<Remembered<L::Memory>>; 2],
     /// Whether the candidates may still be used.
     pub(crate) listed: bool,
     /// Where forces and torques are summed up; in turns with the columns of accelerations.
@@ -175,172 +175,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
     }
 
-    /// Lists the pairs and walls that touch now. With `afresh`, candidates without a skin are listed
-    /// anew first; candidates that can no longer be trusted always are.
-    pub(crate) fn find_contacts(&mut self, afresh: bool) -> Result<(), StepError> {
-        let skinless = afresh
-            && self
-                .detectors
-                .iter()
-                .any(|detector| detector.skin(1.0) == 0.0);
-        if skinless || !self.scratch.listed || !self.narrow() {
-            self.detect()?;
-            self.narrow();
-        }
-        Ok(())
-    }
-
-    /// Narrow phase. Returns whether the candidates could be trusted.
-    fn narrow(&mut self) -> bool {
-        let scene = self.world.scene(&self.particles, 0.0);
-        let reference = &self.scratch.reference;
-        let mut trusted = true;
-        for block in &mut self.blocks {
-            trusted &= block.narrow(&scene, reference);
-        }
-        trusted
-    }
-
-    /// Broad phase: lists candidates, and hands the memory of contacts over to the new list.
-    fn detect(&mut self) -> Result<(), StepError> {
-        self.scratch.memory.iter_mut().for_each(Vec::clear);
-        for block in &mut self.blocks {
-            block.clear(self.world.stamp, &mut self.scratch.memory);
-        }
-        self.scratch.memory[0].sort_unstable_by_key(Remembered::key);
-        self.list()
-    }
-
-    /// Gives contacts the memories that [`remembered`](Self::remembered) saved.
-    pub(crate) fn recall(
-        &mut self,
-        memory: &[Vec<Remembered<L::Memory>>; 2],
-    ) -> Result<(), StepError> {
-        for block in &mut self.blocks {
-            block.clear(self.world.stamp, &mut self.scratch.memory);
-        }
-        self.scratch.memory.clone_from(memory);
-        self.list()
-    }
-
-    /// Lists candidates in blocks that are empty; those that remember have their memory in the
-    /// scratch.
-    fn list(&mut self) -> Result<(), StepError> {
-        self.scratch.listed = false;
-        self.detections += 1;
-        self.check_finite()?;
-        self.propose()?;
-        self.list_candidates();
-        let scene = self.world.scene(&self.particles, 0.0);
-        for block in &mut self.blocks {
-            block.finish(&scene, &self.scratch.memory);
-        }
-        for block in &mut self.blocks {
-            block.prepare(&scene)?;
-        }
-        self.scratch.listed = true;
-        Ok(())
-    }
-
-    /// Asks the detectors, and sorts their proposals into rows by the lower slot.
-    fn propose(&mut self) -> Result<(), StepError> {
-        let count = self.particles.len();
-        let scratch = &mut self.scratch;
-        scratch.rows.clear();
-        scratch.rows.resize(count + 1, 0);
-        scratch.partners.clear();
-        scratch.reference.clear();
-        for (room, detector) in self.world.rooms.iter().zip(&mut self.detectors) {
-            let slots = room.slots.clone();
-            let origin = room.motion.position;
-            let positions = &self.particles.position[slots.clone()];
-            let bed = Bed::new(
-                positions,
-                &self.particles.radius[slots.clone()],
-                room.cavity.bounds(),
-            )
-            .from_origin(origin)
-            .in_plane(room.cavity.is_planar())
-            .with_margin(room.margin + self.world.reach);
-            scratch.proposals.clear();
-            detector.detect(&bed, &mut scratch.proposals);
-            scratch
-                .reference
-                .extend(positions.iter().map(|position| *position - origin));
-
-            let proposals = scratch.proposals.as_slice();
-            let rows = &mut scratch.rows[slots.start..];
-            for &[first, second] in proposals {
-                if first == second || second as usize >= slots.len() {
-                    return Err(StepError::InvalidPair {
-                        first,
-                        second,
-                        particles: slots.len(),
-                    });
-                }
-                rows[first as usize + 1] += 1;
-            }
-            let mut end = scratch.partners.len() as u32;
-            rows[0] = end;
-            for row in &mut rows[1..=slots.len()] {
-                end += *row;
-                *row = end;
-            }
-            // Filling a row from its end moves the end to the start.
-            scratch.partners.resize(end as usize, 0);
-            for &[first, second] in proposals.iter().rev() {
-                let place = &mut rows[first as usize + 1];
-                *place -= 1;
-                scratch.partners[*place as usize] = slots.start as u32 + second;
-            }
-            rows.copy_within(1..=slots.len(), 0);
-            rows[slots.len()] = end;
-        }
-        Ok(())
-    }
-
-    /// Fills the blocks' empty lists from the sorted proposals, and with the walls that are near.
-    fn list_candidates(&mut self) {
-        let (scratch, world) = (&mut self.scratch, &self.world);
-        let radius = &self.particles.radius;
-        for block in &mut self.blocks {
-            for slot in block.slots.clone() {
-                let row = scratch.rows[slot] as usize..scratch.rows[slot + 1] as usize;
-                let partners = &mut scratch.partners[row];
-                partners.sort_unstable();
-                let mut last = None;
-                for partner in partners
-                    .iter()
-                    .copied()
-                    .filter(|p| last.replace(*p) != Some(*p))
-                {
-                    let reach = radius[slot] + radius[partner as usize] + world.reach;
-                    let list = if (partner as usize) < block.slots.end {
-                        &mut block.pairs
-                    } else {
-                        &mut block.border
-                    };
-                    list.push(slot as u32, partner, reach * reach);
-                }
-            }
-            for room in &world.rooms {
-                let from = room.slots.start.max(block.slots.start);
-                let to = room.slots.end.min(block.slots.end);
-                for slot in from..to {
-                    let reach = radius[slot] + world.reach;
-                    let point = scratch.reference[slot];
-                    for wall in 0..room.cavity.walls() {
-                        if room.cavity.wall(wall, point).distance < reach + room.margin {
-                            block.walls.push(slot as u32, room.first_wall + wall, reach);
-                        }
-                    }
-                }
-            }
-        }
-    }
-
     /// Refuses positions that are not finite.
-    fn check_finite(&self) -> Result<(), StepError> {
+    pub(crate) fn check_finite(&self) -> Result<(), StepError> {
         let bad = self
             .particles
             .position
@@ -493,62 +329,5 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
         self.accelerate_mount(time);
         Ok(())
-    }
-
-    /// Memories of all contacts, pairs and walls, by slot.
-    pub(crate) fn remembered(&self) -> [Vec<Remembered<L::Memory>>; 2] {
-        let mut memory = [Vec::new(), Vec::new()];
-        for block in &self.blocks {
-            block.remember(self.world.stamp, &mut memory);
-        }
-        memory[0].sort_unstable_by_key(Remembered::key);
-        memory
-    }
-}
-
-/// One step of an engine, as an integrator sees it.
-pub(crate) struct Step<'a, C, L: ContactLaw, M, D, O> {
-    pub(crate) engine: &'a mut Engine<C, L, M, D>,
-    pub(crate) observer: &'a mut O,
-    pub(crate) begin: f64,
-    /// Whether nothing has been evaluated in this step yet.
-    pub(crate) fresh: bool,
-}
-
-impl<C, L, M, D, O> System for Step<'_, C, L, M, D, O>
-where
-    C: Cavity,
-    L: ContactLaw,
-    M: Mount,
-    D: Detector,
-    O: Observer,
-{
-    fn motions(&mut self) -> Motions<'_> {
-        let particles = &mut self.engine.particles;
-        let mount = &mut self.engine.mount_state;
-        Motions {
-            translation: Columns {
-                position: &mut particles.position,
-                velocity: &mut particles.velocity,
-                acceleration: &particles.acceleration,
-            },
-            rotation: Columns {
-                position: &mut [],
-                velocity: &mut particles.spin,
-                acceleration: &particles.angular_acceleration,
-            },
-            mount: Columns {
-                position: &mut mount.position,
-                velocity: &mut mount.velocity,
-                acceleration: &mount.acceleration,
-            },
-        }
-    }
-
-    fn evaluate(&mut self, elapsed: f64, stage: Stage) -> Result<(), StepError> {
-        let afresh = std::mem::take(&mut self.fresh);
-        let time = self.begin + elapsed;
-        self.engine
-            .evaluate(time, elapsed, stage, afresh, self.observer)
     }
 }

@@ -1,0 +1,57 @@
+//! A step of an engine, as an integrator sees it.
+
+use super::engine::Engine;
+use super::error::StepError;
+use crate::cavity::Cavity;
+use crate::detector::Detector;
+use crate::integrator::{Columns, Motions, Stage, System};
+use crate::law::ContactLaw;
+use crate::mount::Mount;
+use crate::observer::Observer;
+
+/// One step of an engine, as an integrator sees it.
+pub(crate) struct Step<'a, C, L: ContactLaw, M, D, O> {
+    pub(crate) engine: &'a mut Engine<C, L, M, D>,
+    pub(crate) observer: &'a mut O,
+    pub(crate) begin: f64,
+    /// Whether nothing has been evaluated in this step yet.
+    pub(crate) fresh: bool,
+}
+
+impl<C, L, M, D, O> System for Step<'_, C, L, M, D, O>
+where
+    C: Cavity,
+    L: ContactLaw,
+    M: Mount,
+    D: Detector,
+    O: Observer,
+{
+    fn motions(&mut self) -> Motions<'_> {
+        let particles = &mut self.engine.particles;
+        let mount = &mut self.engine.mount_state;
+        Motions {
+            translation: Columns {
+                position: &mut particles.position,
+                velocity: &mut particles.velocity,
+                acceleration: &particles.acceleration,
+            },
+            rotation: Columns {
+                position: &mut [],
+                velocity: &mut particles.spin,
+                acceleration: &particles.angular_acceleration,
+            },
+            mount: Columns {
+                position: &mut mount.position,
+                velocity: &mut mount.velocity,
+                acceleration: &mount.acceleration,
+            },
+        }
+    }
+
+    fn evaluate(&mut self, elapsed: f64, stage: Stage) -> Result<(), StepError> {
+        let afresh = std::mem::take(&mut self.fresh);
+        let time = self.begin + elapsed;
+        self.engine
+            .evaluate(time, elapsed, stage, afresh, self.observer)
+    }
+}
