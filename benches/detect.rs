@@ -4,8 +4,6 @@
 //! and dense (60 %, in the plane 75 %), planar and in space, with a margin of 0.2 radii as inside a
 //! skin; and a dense one of radii from 1 to 10. Particle numbers are shuffled, as mixing leaves them.
 
-#![allow(clippy::unwrap_used)]
-
 use std::hint::black_box;
 use std::time::Duration;
 

@@ -1,7 +1,5 @@
 //! Contact laws: time per force, averaged over contacts of different overlap and speed.
 
-#![allow(clippy::unwrap_used)]
-
 use std::hint::black_box;
 use std::time::Duration;
 

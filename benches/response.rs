@@ -1,8 +1,6 @@
 //! One point of the paper's response curve: 20 periods discarded and 40 averaged at 6 Hz, against the
 //! number of particles.
 
-#![allow(clippy::unwrap_used)]
-
 use std::ops::ControlFlow;
 use std::time::Duration;
 

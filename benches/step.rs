@@ -3,8 +3,6 @@
 //! Groups: the paper's slot at 6 Hz, with the detector that is the default, and with the paper's; and
 //! large boxes, filled to a third and shaken up and down.
 
-#![allow(clippy::unwrap_used)]
-
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};

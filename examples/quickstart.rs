@@ -2,8 +2,6 @@
 //!
 //! `cargo run --release --example quickstart` leaves `target/quickstart/quickstart.csv` and `.svg`.
 
-#![allow(clippy::print_stdout)]
-
 #[path = "support/chart.rs"]
 mod chart;
 #[path = "support/output.rs"]

@@ -3,8 +3,6 @@
 //!
 //! `cargo run --release --example rebound` leaves `target/rebound/rebound.csv` and `.svg`.
 
-#![allow(clippy::print_stdout)]
-
 #[path = "support/chart.rs"]
 mod chart;
 #[path = "support/output.rs"]

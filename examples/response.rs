@@ -5,8 +5,6 @@
 //! `-- --help` lists the options, `-- --quick` takes a few points. The picture of the README:
 //! `cp target/response/response.svg examples/pictures/`.
 
-#![allow(clippy::print_stdout)]
-
 #[path = "support/chart.rs"]
 mod chart;
 #[path = "support/choice.rs"]

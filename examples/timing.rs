@@ -5,8 +5,6 @@
 //! `cargo run --release --example timing` leaves `target/timing/timing.csv` and `.svg`. One thread,
 //! about a minute; the machine should have nothing else to do.
 
-#![allow(clippy::print_stdout)]
-
 #[path = "support/chart.rs"]
 mod chart;
 #[path = "support/output.rs"]

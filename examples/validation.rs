@@ -4,7 +4,6 @@
 //! `cargo run --release --example validation` leaves `target/validation/validation.csv` and four
 //! pictures beside it; `-- --quick` takes the short form that `cargo test` runs. It fails if a case
 //! does. Names of families (`-- contacts rest`) restrict it to those.
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 #[path = "../tests/validation/cases.rs"]
 mod cases;

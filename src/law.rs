@@ -54,7 +54,7 @@ pub enum LawError {
 /// # Using
 /// [`HertzTsuji`] is the strict law of the paper,
 /// [`RestitutionImpulse`] the one that allows a coarser step. Pass one to
-/// [`Builder::law`](crate::Builder::law).
+/// [`Damper::builder`](crate::Damper::builder).
 ///
 /// # Implementing
 /// 1. [`coefficients`](Self::coefficients) is called for every combination of radius, mass and

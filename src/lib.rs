@@ -94,6 +94,13 @@
 //!    prints, reads a clock or starts a thread of its own.
 
 #![forbid(unsafe_code)]
+#![warn(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::print_stderr
+)]
 
 pub mod cavity;
 mod contact;

@@ -1,7 +1,5 @@
 //! The same bits: from run to run, with every detector, and after a restart.
 
-#![allow(clippy::unwrap_used)]
-
 use particle_damper::cavity::{Cavity, Cylinder, Slot};
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::integrator::{Integrator, RungeKutta4, VelocityVerlet};

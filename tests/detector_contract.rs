@@ -1,8 +1,6 @@
 //! The contract of `Detector`, held against every detector by one body: exactly the pairs that
 //! testing each pair gives, each once.
 
-#![allow(clippy::unwrap_used)]
-
 use particle_damper::glam::DVec3;
 use particle_damper::{
     AllPairs, Bed, CellGrid, Counted, Detector, DetectorError, LinkedCells, Neighbourhood, Pairs,

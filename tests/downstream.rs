@@ -1,7 +1,5 @@
 //! Every trait implemented from outside, with what the crate makes public alone, and run together.
 
-#![allow(clippy::unwrap_used)]
-
 use std::f64::consts::PI;
 
 use particle_damper::cavity::{Cavity, Cuboid, Slot, WallPoint};

@@ -1,8 +1,6 @@
 //! Filling a cavity: no overlap, the same bits from the same seed, and an error where there is no
 //! room.
 
-#![allow(clippy::unwrap_used)]
-
 use glam::{DVec3, dvec3};
 use particle_damper::cavity::{Cavity, Cuboid, Cylinder, Disc, Slot, Sphere, WallPoint};
 use particle_damper::{Filling, FillingError, Materials, Particle, ValueError};

@@ -1,8 +1,6 @@
 //! Bad days: what hosts and laws hand in by mistake is a typed error that says what and where, and the
 //! damper goes on once it is restored.
 
-#![allow(clippy::unwrap_used)]
-
 use glam::{DMat3, DVec3, dvec3};
 use particle_damper::{
     Bodies, Bound, Contact, ContactForce, ContactLaw, Cuboid, Damper, Driven, Evaluation, Filling,

@@ -1,7 +1,5 @@
 //! Where the energy goes.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
 use particle_damper::excitation::Harmonic;
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::{

@@ -1,7 +1,5 @@
 //! What other codes got wrong, held against whole dampers.
 
-#![allow(clippy::unwrap_used)]
-
 use particle_damper::cavity::{Cavity, Cuboid, Slot};
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::integrator::{Integrator, RungeKutta4, VelocityVerlet};

@@ -1,7 +1,5 @@
 //! Beds of mixed radii and materials: exact with every detector, fast, and of the materials named.
 
-#![allow(clippy::unwrap_used)]
-
 use glam::{DVec3, dvec3};
 use particle_damper::{
     AllPairs, Bed, Cavity, CellGrid, Cuboid, Damper, Detector, Driven, Filling, HertzTsuji,

@@ -1,7 +1,5 @@
 //! Whatever numbers are handed in: a typed error or a finite answer, never a panic.
 
-#![allow(clippy::unwrap_used)]
-
 use particle_damper::cavity::{Cavity, Cuboid, Cylinder, Disc, Slot, Sphere};
 use particle_damper::excitation::Harmonic;
 use particle_damper::glam::{DVec3, dvec3};

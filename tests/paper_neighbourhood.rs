@@ -1,7 +1,5 @@
 //! The paper's neighbourhood of 20 cells misses contacts, and the grid says how many.
 
-#![allow(clippy::unwrap_used)]
-
 use particle_damper::glam::DVec3;
 use particle_damper::{Bed, CellGrid, Detector, Neighbourhood, Pairs};
 

@@ -3,8 +3,6 @@
 //!
 //! All points of Fig. 11 take minutes: `cargo test --release --test response -- --ignored`.
 
-#![allow(clippy::unwrap_used)]
-
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use std::sync::Mutex;

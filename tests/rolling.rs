@@ -1,8 +1,6 @@
 //! Rolling resistance on an incline: a constant couple, rolling friction coefficient times normal
 //! force times radius.
 
-#![allow(clippy::unwrap_used)]
-
 use particle_damper::cavity::Slot;
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::{

@@ -1,6 +1,6 @@
 //! Known answers, in their short form: every case states its source and its tolerance. The long form
 //! is `cargo run --release --example validation`.
-#![allow(clippy::unwrap_used, clippy::panic, clippy::float_cmp)]
+#![allow(clippy::float_cmp)]
 
 #[path = "validation/cases.rs"]
 mod cases;
