@@ -4,6 +4,8 @@
 //! multi-unit damper, Saeki 2005, doi 10.1016/j.jsv.2004.06.005), and with their weight fixed.
 //! `cargo run --release --example beam` leaves `target/beam/beam.csv`, `decay.svg` and `loss.svg`.
 
+#![allow(clippy::print_stdout)]
+
 #[path = "support/chart.rs"]
 mod chart;
 #[path = "support/output.rs"]
