@@ -5,6 +5,8 @@
 //! `cargo run --release --example animation` leaves `target/animation/bed.svg`, and
 //! the container's height in `container.csv`.
 
+#![allow(clippy::print_stdout)]
+
 #[path = "support/output.rs"]
 mod output;
 

@@ -1,8 +1,10 @@
 //! A mount of one's own: a cantilever reduced to its first three modes, with dampers at its tip.
 //!
 //! Free decay with the grains loose in one cavity, loose in two cavities of half the width (a
-//! multi-unit damper, Saeki 2005, doi 10.1016/j.jsv.2004.06.005), and with their weight fixed.
+//! multi-unit damper, after Saeki 2005), and with their weight fixed.
 //! `cargo run --release --example beam` leaves `target/beam/beam.csv`, `decay.svg` and `loss.svg`.
+
+#![allow(clippy::print_stdout)]
 
 #[path = "support/chart.rs"]
 mod chart;

@@ -3,6 +3,8 @@
 //!
 //! `cargo run --release --example custom_detector` leaves `target/custom_detector/proposals.csv`.
 
+#![allow(clippy::print_stdout)]
+
 #[path = "support/output.rs"]
 mod output;
 

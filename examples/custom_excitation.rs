@@ -7,6 +7,8 @@
 //! `cargo run --release --example custom_excitation` leaves `target/custom_excitation/shaken.csv` and
 //! `.svg`.
 
+#![allow(clippy::print_stdout)]
+
 #[path = "support/chart.rs"]
 mod chart;
 #[path = "support/output.rs"]

@@ -5,6 +5,8 @@
 //! it the paper's strict law with both its dampings.
 //! `cargo run --release --example custom_law` leaves `target/custom_law/restitution.csv` and `.svg`.
 
+#![allow(clippy::print_stdout)]
+
 #[path = "support/chart.rs"]
 mod chart;
 #[path = "support/output.rs"]

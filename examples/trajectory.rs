@@ -1,9 +1,11 @@
 //! Every particle's way through a shaken box, for other programs: a table, and a series of VTK files
-//! that ParaView opens (glyphs of type sphere, scaled by the radius).
+//! that `ParaView` opens (glyphs of type sphere, scaled by the radius).
 //!
 //! A recorder watches from outside: the loop knows nothing of files.
 //! `cargo run --release --example trajectory` leaves `target/trajectory/trajectory.csv` and
 //! `bed_0000.vtk` and so on.
+
+#![allow(clippy::print_stdout)]
 
 #[path = "support/output.rs"]
 mod output;

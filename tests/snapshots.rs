@@ -1,5 +1,6 @@
 //! Snapshots: written, read in another process, damaged, and put into the wrong damper.
 #![cfg(feature = "serde")]
+#![allow(clippy::unwrap_used)]
 
 use std::process::Command;
 
