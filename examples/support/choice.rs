@@ -79,14 +79,14 @@ pub(crate) enum IntegratorName {
 #[derive(Debug, Clone)]
 pub(crate) enum AnyIntegrator {
     Verlet(VelocityVerlet),
-    Rk4(RungeKutta4),
+    Rk4(Box<RungeKutta4>),
 }
 
 impl IntegratorName {
     pub(crate) fn integrator(self) -> AnyIntegrator {
         match self {
             Self::Verlet => AnyIntegrator::Verlet(VelocityVerlet::default()),
-            Self::Rk4 => AnyIntegrator::Rk4(RungeKutta4::default()),
+            Self::Rk4 => AnyIntegrator::Rk4(Box::default()),
         }
     }
 }
@@ -95,7 +95,7 @@ impl Integrator for AnyIntegrator {
     fn step<S: System>(&mut self, system: &mut S, time_step: f64) -> Result<(), StepError> {
         match self {
             Self::Verlet(inner) => inner.step(system, time_step),
-            Self::Rk4(inner) => inner.step(system, time_step),
+            Self::Rk4(inner) => inner.as_mut().step(system, time_step),
         }
     }
 }
