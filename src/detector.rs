@@ -155,6 +155,11 @@ impl Pairs {
         size_of::<[u32; 2]>() * self.found.capacity()
     }
 
+    /// Makes room for proposals.
+    pub(crate) fn reserve(&mut self, proposals: usize) {
+        self.found.reserve(proposals);
+    }
+
     /// Forgets all proposals and keeps the memory they stood in.
     pub fn clear(&mut self) {
         self.found.clear();

@@ -24,7 +24,7 @@ fn material() -> Material {
 fn down<L: ContactLaw>(law: L, time_step: f64, slope: f64, start: f64) -> (f64, f64, f64) {
     let angle = slope.atan();
     let normal = GRAVITY * angle.cos();
-    let stiffness = 1.605048e7;
+    let stiffness = 1.605_048e7;
     let sunk = (MASS * normal / stiffness).powf(2.0 / 3.0);
     let sphere = Particle::new(RADIUS, MASS)
         .unwrap()

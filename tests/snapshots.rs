@@ -271,7 +271,12 @@ fn another_setup_is_refused_and_named() {
         .particles(bed())
         .time_step(2e-5);
     let error = wider.build().unwrap().restore(&snapshot).unwrap_err();
-    assert_eq!(error, RestoreError::OtherSetup { quantity: "cavity" });
+    assert_eq!(
+        error,
+        RestoreError::OtherSetup {
+            quantity: "set of cavities"
+        }
+    );
 }
 
 #[test]

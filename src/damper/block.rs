@@ -22,6 +22,12 @@ use crate::observer::{ContactEvent, Observer};
 /// How many slots make a block: its columns fit into a second-level cache.
 pub(crate) const BLOCK: usize = 4096;
 
+/// How many candidates there is room for from the start. The count of a small bed fluctuates: room for
+/// as many as it has when it is dense spares it the allocations that would follow.
+pub(crate) const fn room_for(particles: usize) -> usize {
+    if particles < BLOCK { 4 * particles } else { 0 }
+}
+
 /// What a block sends to a particle of a later one.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Parcel {
@@ -53,9 +59,11 @@ pub(crate) struct Block<L: ContactLaw> {
 
 impl<L: ContactLaw> Block<L> {
     pub(crate) fn new(slots: Range<usize>, walls: usize) -> Self {
+        let mut pairs = Candidates::default();
+        pairs.reserve(room_for(slots.len()));
         Self {
             slots,
-            pairs: Candidates::default(),
+            pairs,
             border: Candidates::default(),
             walls: Candidates::default(),
             parcels: Vec::new(),

@@ -222,8 +222,8 @@ where
             mount: self.mount,
             gravity: self.gravity,
             blocks: Engine::<C, L, M, D>::make_blocks(particles.len(), walls),
+            scratch: Scratch::new(particles.len()),
             particles,
-            scratch: Scratch::default(),
             wall_loads: vec![WallLoad::default(); walls],
             loads: vec![DVec3::ZERO; rooms.len()],
             world: World {

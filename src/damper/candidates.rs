@@ -78,6 +78,12 @@ impl Contacts {
     }
 }
 
+/// Gives `column` a length, and room for more, so that columns that belong together grow together.
+fn fit<T: Copy>(column: &mut Vec<T>, length: usize, room: usize, value: T) {
+    column.resize(length, value);
+    column.reserve(room - length);
+}
+
 impl<L: ContactLaw> Default for Candidates<L> {
     fn default() -> Self {
         Self {
@@ -116,6 +122,11 @@ impl<L: ContactLaw> Candidates<L> {
         }));
     }
 
+    /// Makes room for candidates.
+    pub(crate) fn reserve(&mut self, candidates: usize) {
+        self.list.reserve(candidates);
+    }
+
     /// Adds a candidate. They come in ascending order of `first` and `second`.
     pub(crate) fn push(&mut self, first: u32, second: u32, limit: f64) {
         self.list.push(Candidate {
@@ -130,15 +141,19 @@ impl<L: ContactLaw> Candidates<L> {
     pub(crate) fn finish(&mut self, stamp: u32, remembered: &[Remembered<L::Memory>]) {
         let count = self.list.len();
         // One place more, because entries are written before it is known whether they count.
-        self.contacts.places.resize(count + 1, 0);
-        self.contacts.distance.resize(count + 1, 0.0);
-        self.contacts.inverse.resize(count + 1, 0.0);
+        let room = self.list.capacity() + 1;
+        let contacts = &mut self.contacts;
+        fit(&mut contacts.places, count + 1, room, 0);
+        fit(&mut contacts.distance, count + 1, room, 0.0);
+        fit(&mut contacts.inverse, count + 1, room, 0.0);
         if !Self::REMEMBERS {
             return;
         }
         self.memory.clear();
-        self.memory.resize(count, L::Memory::default());
+        self.memory.reserve(room);
         self.touched.clear();
+        self.touched.reserve(room);
+        self.memory.resize(count, L::Memory::default());
         self.touched.resize(count, stamp.wrapping_sub(1));
         let mut remembered = remembered.iter().peekable();
         for (place, candidate) in self.list.iter().enumerate() {

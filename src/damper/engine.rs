@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use super::block::{BLOCK, Block, Place};
+use super::block::{BLOCK, Block, Place, room_for};
 use super::candidates::Remembered;
 use super::error::StepError;
 use super::particles::Particles;
@@ -66,6 +66,14 @@ pub(crate) struct Scratch<L: ContactLaw> {
 }
 
 impl<L: ContactLaw> Scratch<L> {
+    /// Scratch for a bed of `particles`.
+    pub(crate) fn new(particles: usize) -> Self {
+        let mut scratch = Self::default();
+        scratch.proposals.reserve(room_for(particles));
+        scratch.partners.reserve(room_for(particles));
+        scratch
+    }
+
     /// Memory in bytes that it has reserved.
     pub(crate) fn reserved_bytes(&self) -> usize {
         let vectors = [

@@ -40,6 +40,9 @@ impl Setup {
             cavities.add_cavity(&room.cavity);
             mount.add(&engine.mount.mobility(number));
         }
+        if world.rooms.len() > 1 {
+            cavities.add(&engine.particles.number);
+        }
         Self {
             time_step,
             gravity: engine.gravity,
@@ -54,7 +57,7 @@ impl Setup {
     pub(crate) fn difference(&self, other: &Self) -> Option<&'static str> {
         [
             ("bed: radii, masses or materials", self.kinds == other.kinds),
-            ("cavity", self.cavities == other.cavities),
+            ("set of cavities", self.cavities == other.cavities),
             (
                 "time step",
                 self.time_step.to_bits() == other.time_step.to_bits(),

@@ -131,7 +131,11 @@ impl<Memory> Snapshot<Memory> {
     }
 
     /// Refuses what does not fit into `engine`, and what cannot be.
-    fn check<C, L, M, D>(&self, engine: &Engine<C, L, M, D>) -> Result<(), RestoreError>
+    fn check<C, L, M, D>(
+        &self,
+        engine: &Engine<C, L, M, D>,
+        setup: &Setup,
+    ) -> Result<(), RestoreError>
     where
         C: Cavity,
         L: ContactLaw<Memory = Memory>,
@@ -145,6 +149,9 @@ impl<Memory> Snapshot<Memory> {
         RestoreError::count("cavities", cavities, self.containers.len())?;
         RestoreError::count("walls", engine.wall_loads.len(), self.wall_loads.len())?;
         RestoreError::count("mount coordinates", coordinates, self.mount.position.len())?;
+        if let Some(quantity) = setup.difference(&self.setup) {
+            return Err(RestoreError::OtherSetup { quantity });
+        }
 
         let columns = [
             ("positions", &self.position),
@@ -256,10 +263,7 @@ where
             });
         }
         let engine = &mut self.engine;
-        snapshot.check(engine)?;
-        if let Some(quantity) = self.setup.difference(&snapshot.setup) {
-            return Err(RestoreError::OtherSetup { quantity });
-        }
+        snapshot.check(engine, &self.setup)?;
         let particles = &mut engine.particles;
         particles.rearrange(&snapshot.number);
         particles.position.clone_from(&snapshot.position);

@@ -11,10 +11,6 @@ const TRAVEL: f64 = 0.2;
 /// Fraction of the overlap that a contact without restitution gives back per step.
 const SETTLING: f64 = 0.02;
 
-/// Bodies that will touch within this part of a step are struck: the greatest overlap is then the
-/// travel of a quarter of a step, and what the impact itself takes.
-const AHEAD: f64 = 0.75;
-
 /// Bodies are struck ahead up to this multiple of the reference speed.
 const TOP_SPEED: f64 = 5.0;
 
@@ -26,8 +22,9 @@ const TOP_SPEED: f64 = 5.0;
 /// step (Eq. 12). As it stands in the paper the law lets resting particles sink, by g dt/(1 + e) in
 /// velocity and layer, until they leave through the floor. The default form differs in this:
 ///
-/// - Bodies are struck when they will touch within three quarters of a step, so that overlaps stay
-///   small; impacts come a quarter of a step early on the average.
+/// - Bodies are struck when they will touch within (1 + e)/2 of a step. Over the step of an impact they
+///   come closer by (1 - e)/2 of what they would without, so that no impact of two bodies makes an
+///   overlap of more than (1 - e) v dt.
 /// - Contacts are struck one after the other, to and fro, each with the velocities that those before
 ///   it left.
 /// - At a wall the impulse also takes up what gravity and the container's motion add over the step, so
@@ -176,7 +173,8 @@ impl ContactLaw for RestitutionImpulse {
             return ContactForce::new(impulse * rate, DVec3::ZERO);
         }
         let ahead = -contact.velocity_ahead.dot(normal);
-        if ahead <= 0.0 || contact.overlap < -AHEAD * approach.max(ahead) * contact.elapsed {
+        let early = 0.5 * (1.0 + own.restitution) * contact.elapsed;
+        if ahead <= 0.0 || contact.overlap < -early * approach.max(ahead) {
             return ContactForce::default();
         }
         let rebound = own.restitution * approach.max(0.0);
@@ -216,7 +214,7 @@ impl ContactLaw for RestitutionImpulse {
         if self.literal {
             0.0
         } else {
-            AHEAD * TOP_SPEED * self.reference_speed * time_step
+            TOP_SPEED * self.reference_speed * time_step
         }
     }
 
