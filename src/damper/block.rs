@@ -59,13 +59,14 @@ pub(crate) struct Block<L: ContactLaw> {
 
 impl<L: ContactLaw> Block<L> {
     pub(crate) fn new(slots: Range<usize>, walls: usize) -> Self {
-        let mut pairs = Candidates::default();
+        let (mut pairs, mut near) = (Candidates::default(), Candidates::default());
         pairs.reserve(room_for(slots.len()));
+        near.reserve(room_for(slots.len()));
         Self {
             slots,
             pairs,
             border: Candidates::default(),
-            walls: Candidates::default(),
+            walls: near,
             parcels: Vec::new(),
             loads: vec![WallLoad::default(); walls],
             contacts: 0,

@@ -71,6 +71,9 @@ impl<L: ContactLaw> Scratch<L> {
         let mut scratch = Self::default();
         scratch.proposals.reserve(room_for(particles));
         scratch.partners.reserve(room_for(particles));
+        for memory in &mut scratch.memory {
+            memory.reserve(room_for(particles));
+        }
         scratch
     }
 

@@ -17,7 +17,7 @@ use crate::mount::Mount;
 use crate::observer::{ContactEvent, Observer};
 
 /// How often the contacts are gone through at the most.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 16;
 
 /// Approach within a step, as a fraction of the smallest radius, that needs no further round.
 const NEGLIGIBLE_APPROACH: f64 = 0.01;
