@@ -20,7 +20,7 @@
 //! let mut damper = Damper::builder(cavity, law).particles(bed).time_step(1e-4).build()?;
 //!
 //! // The host's loop: it moves the box, and takes the reaction back. Here a mass on a spring.
-//! let (mass, stiffness, interval) = (0.5, 2000.0, 5e-4);
+//! let (mass, stiffness, interval) = (0.1, 400.0, 5e-4);
 //! let (mut x, mut v) = (0.0, 1.0);
 //! for _ in 0..400 {
 //!     v -= stiffness * x / mass * interval;
@@ -29,7 +29,7 @@
 //!     let reaction = damper.drive(end, interval)?;
 //!     v += reaction.impulse.y / mass;
 //! }
-//! assert!(mass * v * v + stiffness * x * x < 0.8 * mass); // energy has gone
+//! assert!(mass * v * v + stiffness * x * x < 0.5 * mass); // less than half its energy is left
 //! # Ok(())
 //! # }
 //! ```
