@@ -219,6 +219,7 @@ fn rests<L: ContactLaw>(law: L, time_step: f64, duration: f64) {
 #[test]
 fn a_resting_bed_rests() {
     rests(HertzTsuji::new(Material::acrylic()), 2e-5, 3.0);
+    rests(HertzMindlin::new(Material::acrylic()), 1.5e-5, 3.0);
     rests(RestitutionImpulse::new(Material::acrylic()), 1e-4, 5.0);
 }
 

@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use super::Partner;
 use super::candidates::{Candidates, Remembered, Touch};
-use super::scene::{Grain, PairContact, Scene, WallLoad, wall_contact};
+use super::scene::{PairContact, Scene, WallLoad, wall_contact};
 use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce};
 use crate::law::{ContactLaw, LawError};
@@ -342,11 +342,15 @@ fn answer_pairs<C: Cavity, L: ContactLaw, O: Observer, const END: bool>(
 ) -> f64 {
     // Columns of one length, so that one comparison stands for all their bounds.
     let count = scene.position.len();
-    let (position, velocity) = (&scene.position[..count], &scene.velocity[..count]);
-    let (spin, radius) = (&scene.spin[..count], &scene.radius[..count]);
-    let acceleration = &scene.acceleration[..count];
-    let angular_acceleration = &scene.angular_acceleration[..count];
-    let species = &scene.species[..count];
+    let even = Scene {
+        velocity: &scene.velocity[..count],
+        spin: &scene.spin[..count],
+        acceleration: &scene.acceleration[..count],
+        angular_acceleration: &scene.angular_acceleration[..count],
+        radius: &scene.radius[..count],
+        species: &scene.species[..count],
+        ..*scene
+    };
     let watched = END && observer.wants_contacts();
     let mut deepest = 0.0_f64;
     for number in 0..list.contacts.len() {
@@ -355,17 +359,10 @@ fn answer_pairs<C: Cavity, L: ContactLaw, O: Observer, const END: bool>(
         if i >= count || j >= count {
             continue;
         }
-        let grain = |slot: usize| Grain {
-            position: position[slot],
-            velocity: velocity[slot],
-            spin: spin[slot],
-            acceleration: acceleration[slot],
-            angular_acceleration: angular_acceleration[slot],
-            radius: radius[slot],
-        };
-        let pair = PairContact::new(&grain(i), &grain(j), &touch, scene.elapsed);
+        let pair = PairContact::new(&even.grain(i), &even.grain(j), &touch, even.elapsed);
         let own = list.prepared(touch.place);
-        let kind = scene.coefficients.pair(species[i], species[j], own);
+        let (first, second) = (even.species[i], even.species[j]);
+        let kind = even.coefficients.pair(first, second, own);
         let (stamp, law) = (scene.stamp, scene.law);
         let answer = answer::<L, END>(stamp, law, list, touch.place, &kind, &pair.contact);
         deepest = deepest.max(pair.contact.overlap);
