@@ -92,18 +92,17 @@
 //!
 //! | h (ms) | at 1 s (mm) | at 2 s (mm) |
 //! |---|---|---|
-//! | solved together ([`SingleDof`](crate::SingleDof)) | 8.02 | 5.30 |
-//! | 0.1 | 8.03 | 5.26 |
-//! | 0.2 | 7.99 | 5.20 |
-//! | 0.5 | 7.86 | 5.00 |
-//! | 1 | 7.65 | 4.70 |
-//! | 2 | 7.23 | 4.13 |
-//! | 5 | 6.18 | 2.86 |
-//! | 10 | 4.71 | 1.51 |
-//! | 20 | 2.71 | 0.72 |
+//! | solved together ([`SingleDof`](crate::SingleDof)) | 8.03 | 5.31 |
+//! | 0.1 | 7.98 | 5.23 |
+//! | 0.2 | 7.98 | 5.19 |
+//! | 0.5 | 7.91 | 5.03 |
+//! | 1 | 7.67 | 4.71 |
+//! | 2 | 7.26 | 4.15 |
+//! | 5 | 6.16 | 2.84 |
+//! | 10 | 4.65 | 1.48 |
+//! | 20 | 2.67 | 0.41 |
 //!
-//! Another filling gives 8.09 and 5.34 mm in the first row. At 20 ms, an eighth of a period, most of
-//! the damping that one sees is the coupling's. The table is made with this program, in which the host
+//! At 20 ms, an eighth of a period, most of the damping that one sees is the coupling's. The table is made with this program, in which the host
 //! is exact between exchanges, so that nothing but the coupling is at fault:
 //!
 //! ```
