@@ -153,12 +153,18 @@ fn loss_factors(record: &[(f64, f64)]) -> Vec<(f64, f64)> {
         low = low.min(pair[1].1);
         high = high.max(pair[1].1);
     }
-    // Over four swings, so that a single clash does not show.
-    let decrement = |pair: &[f64]| (pair[0] / pair[4]).ln() / (4.0 * std::f64::consts::PI);
-    let pairs = swings.windows(5).skip(1);
-    pairs
-        .map(|pair| (pair[2], decrement(pair).max(1e-5)))
-        .collect()
+    // Over as many swings as it takes to lose a tenth, so that higher modes and single clashes do not
+    // show.
+    let lost = |(n, first): (usize, &f64)| {
+        let later = swings
+            .iter()
+            .skip(n)
+            .position(|swing| *swing < 0.9 * first)?;
+        let last = swings[n + later];
+        let decrement = (first / last).ln() / (later as f64 * std::f64::consts::PI);
+        Some(((first * last).sqrt(), decrement))
+    };
+    swings.iter().enumerate().skip(1).filter_map(lost).collect()
 }
 
 fn main() -> Result<(), Failure> {
@@ -224,7 +230,7 @@ fn main() -> Result<(), Failure> {
             x,
             y,
             logarithmic,
-            legend: SeriesLabelPosition::UpperRight,
+            legend: SeriesLabelPosition::LowerMiddle,
         }
         .draw(&path, lines)?;
         output::say_where("picture", &path);
