@@ -68,33 +68,25 @@ fn a_size_ratio_of_ten_is_exact_with_every_detector() {
     assert_eq!(grid, reference);
 }
 
-/// Small particles are not tested against all others that a cell of a large one's size holds: with
-/// those the detector would be no faster than testing every pair.
+/// The levels of linked cells find what testing every pair finds. How fast they are is measured by the
+/// group `space_mixed` of the bench `detect`.
 #[test]
-fn a_size_ratio_of_ten_stays_fast() {
+fn levels_of_cells_lose_no_pair_of_unlike_sizes() {
     let (_, particles, cavity) = bed(2000, 15);
     let positions: Vec<DVec3> = particles.iter().map(|p| p.position).collect();
     let radii: Vec<f64> = particles.iter().map(|p| p.radius).collect();
-    let bed = Bed::new(&positions, &radii, cavity.bounds());
-    let found_in = |detector: &mut dyn Detector| {
+    let bed = Bed::new(&positions, &radii, cavity.bounds()).with_margin(1e-4);
+    let found_by = |detector: &mut dyn Detector| {
         detector.prepare(&bed).unwrap();
         let mut pairs = Pairs::default();
-        let mut shortest = f64::INFINITY;
-        for _ in 0..5 {
-            pairs.clear();
-            let start = std::time::Instant::now();
-            detector.detect(&bed, &mut pairs);
-            shortest = shortest.min(start.elapsed().as_secs_f64());
-        }
+        detector.detect(&bed, &mut pairs);
         let mut pairs = pairs.as_slice().to_vec();
         pairs.sort_unstable();
-        (shortest, pairs)
+        pairs
     };
-    let (slow, all) = found_in(&mut AllPairs);
-    let (fast, linked) = found_in(&mut LinkedCells::new());
-    assert_eq!(linked, all);
-    // A factor of tens; the rest is for a busy machine.
-    assert!(fast < 0.3 * slow, "{fast} s, every pair {slow} s");
+    let linked = found_by(&mut LinkedCells::new());
+    assert!(!linked.is_empty());
+    assert_eq!(linked, found_by(&mut AllPairs));
 }
 
 /// Speed after over speed before a ball of `material` meets a wall of `walls`.
