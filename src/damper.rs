@@ -357,7 +357,7 @@ impl<C: Cavity, L: ContactLaw> Damper<C, L, Driven, Skin<LinkedCells>> {
     }
 }
 
-/// The bodies that occur, for laws and messages.
+/// The smallest radius of `kinds` in m; infinite if there are none.
 pub(crate) fn smallest_radius(kinds: &[Body]) -> f64 {
     kinds
         .iter()

@@ -121,14 +121,11 @@ impl<L: ContactLaw> Block<L> {
     ) -> bool {
         let mut trusted = true;
         for room in scene.rooms {
-            let from = room.slots.start.max(self.slots.start);
-            let to = room.slots.end.min(self.slots.end);
-            if from >= to {
-                continue;
-            }
+            let own = room.slots_in(&self.slots);
             let limit = 0.25 * room.margin * room.margin;
             let origin = room.motion.position;
-            for (position, reference) in scene.position[from..to].iter().zip(&reference[from..to]) {
+            let moved = scene.position[own.clone()].iter().zip(&reference[own]);
+            for (position, reference) in moved {
                 trusted &= (*position - origin - *reference).length_squared() <= limit;
             }
         }

@@ -159,10 +159,11 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 }
             }
             for room in &world.rooms {
-                let from = room.slots.start.max(block.slots.start);
-                let to = room.slots.end.min(block.slots.end);
-                let grains = radius[from..to].iter().zip(&scratch.reference[from..to]);
-                for (slot, (radius, point)) in (from..to).zip(grains) {
+                let own = room.slots_in(&block.slots);
+                let grains = radius[own.clone()]
+                    .iter()
+                    .zip(&scratch.reference[own.clone()]);
+                for (slot, (radius, point)) in own.zip(grains) {
                     let reach = radius + world.reach;
                     for wall in 0..room.cavity.walls() {
                         if room.cavity.wall(wall, *point).distance < reach + room.margin {

@@ -175,6 +175,12 @@ pub(crate) fn wall_contact(
 }
 
 impl<C> Room<C> {
+    /// The slots among `slots` whose particles are in this room.
+    pub(crate) fn slots_in(&self, slots: &Range<usize>) -> Range<usize> {
+        let start = self.slots.start.clamp(slots.start, slots.end);
+        start..self.slots.end.clamp(start, slots.end)
+    }
+
     /// Velocity of the container, and its mean acceleration since the start of the step.
     #[inline(always)]
     pub(crate) fn moving(&self, elapsed: f64) -> [DVec3; 2] {
