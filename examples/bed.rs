@@ -1,0 +1,229 @@
+//! A large bed in a container that is shaken up and down, timed.
+//!
+//! `cargo run --release --example bed -- scene.txt --steps 25000` reads a start state: a first line
+//! `DIM N WIDTH HEIGHT DEPTH DIAMETER DENSITY`, then `x y z vx vy vz wx wy wz` for each sphere (SI,
+//! origin in a corner of the box, z = 0 if `DIM` is 2). Without a file it fills a box itself:
+//! `--particles 1000000 --dimension 3`.
+//!
+//! The whole container moves along y, against gravity, with 10 mm at 6 Hz, and starts from rest at its
+//! lowest point, as LAMMPS's `wiggle` does: y = 10 mm (1 - cos(2 pi 6 Hz t)). Spheres are of
+//! E = 0.4 GPa, nu = 0.3, mu = 0.2, e = 0.75; the time step is 20 microseconds.
+
+use std::error::Error;
+use std::f64::consts::{PI, TAU};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::{Parser, ValueEnum};
+use particle_damper::glam::{DVec3, dvec3};
+use particle_damper::{
+    Cavity, ContactLaw, Cuboid, Damper, Damping, Filling, HertzMindlin, HertzTsuji, LinkedCells,
+    Material, Motion, Particle, Prescribed, RestitutionImpulse, Skin, Slot,
+};
+
+type Failure = Box<dyn Error>;
+
+/// Frequency in Hz and amplitude in m of the container.
+const FREQUENCY: f64 = 6.0;
+const AMPLITUDE: f64 = 0.01;
+const TIME_STEP: f64 = 2e-5;
+/// Steps that are taken before the clock starts.
+const WARM_UP: u64 = 20;
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Law {
+    /// Hertz contacts, friction with a tangential spring.
+    Mindlin,
+    /// Hertz contacts, sliding friction.
+    Sliding,
+    /// One impulse per contact and step.
+    Impulse,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Dashpot {
+    /// Grows with the square root of the overlap.
+    Viscoelastic,
+    /// Grows with its fourth root.
+    Tsuji,
+}
+
+/// A shaken bed, timed.
+#[derive(Debug, Parser)]
+struct Options {
+    /// Start state; without it a box is filled.
+    scene: Option<PathBuf>,
+    /// Particles of a box that is filled.
+    #[arg(long, default_value_t = 1000)]
+    particles: usize,
+    /// 2 for a box that is filled one particle deep, 3 for a cube.
+    #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u8).range(2..=3))]
+    dimension: u8,
+    #[arg(long, value_enum, default_value_t = Law::Mindlin)]
+    law: Law,
+    #[arg(long, value_enum, default_value_t = Dashpot::Tsuji)]
+    damping: Dashpot,
+    /// Steps that are timed.
+    #[arg(long, default_value_t = 25_000)]
+    steps: u64,
+    /// Skin of the neighbour lists in radii.
+    #[arg(long, default_value_t = 1.0 / 3.0)]
+    skin: f64,
+    /// A hundred steps.
+    #[arg(long)]
+    quick: bool,
+}
+
+/// A box and the spheres in it.
+struct Scene {
+    planar: bool,
+    size: DVec3,
+    particles: Vec<Particle>,
+}
+
+impl Scene {
+    fn read(path: &Path) -> Result<Self, Failure> {
+        let text = fs::read_to_string(path)?;
+        let mut rows = text.lines().map(|line| {
+            let numbers = line.split_whitespace().map(str::parse);
+            numbers.collect::<Result<Vec<f64>, _>>()
+        });
+        let head = rows.next().ok_or("an empty scene")??;
+        let &[dimension, count, width, height, depth, diameter, density] = &head[..] else {
+            return Err("DIM N WIDTH HEIGHT DEPTH DIAMETER DENSITY expected".into());
+        };
+        let sphere = Particle::with_density(0.5 * diameter, density)?;
+        let particles = rows
+            .map(|row| {
+                let &[x, y, z, vx, vy, vz, wx, wy, wz] = &row?[..] else {
+                    return Err(Failure::from("x y z vx vy vz wx wy wz expected"));
+                };
+                let sphere = sphere.at(dvec3(x, y, z)).moving(dvec3(vx, vy, vz));
+                Ok(sphere.spinning(dvec3(wx, wy, wz)))
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        if particles.len() as f64 != count {
+            return Err(format!("{count} spheres promised, {} found", particles.len()).into());
+        }
+        Ok(Self {
+            planar: dimension == 2.0,
+            size: dvec3(width, height, depth),
+            particles,
+        })
+    }
+
+    /// A box that a settled bed fills to 60 %.
+    fn filled(planar: bool, count: usize) -> Result<Self, Failure> {
+        let sphere = Particle::new(3e-3, 2e-4)?;
+        let volume = 4.0 / 3.0 * PI * sphere.radius.powi(3);
+        let filling = Filling::new(1).with(count, sphere);
+        let (size, particles) = if planar {
+            let size = (count as f64 / 100.0).sqrt() * dvec3(0.060, 0.096, 0.0);
+            (size, filling.fill(&Slot::new(size.x, size.y)?)?)
+        } else {
+            let size = DVec3::splat((count as f64 * volume / 0.36).cbrt());
+            (size, filling.fill(&Cuboid::new(size)?)?)
+        };
+        Ok(Self {
+            planar,
+            size,
+            particles,
+        })
+    }
+}
+
+impl Options {
+    fn run(&self) -> Result<(), Failure> {
+        let scene = match &self.scene {
+            Some(path) => Scene::read(path)?,
+            None => Scene::filled(self.dimension == 2, self.particles)?,
+        };
+        let (size, particles) = (scene.size, scene.particles);
+        if scene.planar {
+            self.shake_by_law(Slot::new(size.x, size.y)?, particles)
+        } else {
+            self.shake_by_law(Cuboid::new(size)?, particles)
+        }
+    }
+
+    fn shake_by_law<C: Cavity>(&self, cavity: C, particles: Vec<Particle>) -> Result<(), Failure> {
+        let damping = match self.damping {
+            Dashpot::Viscoelastic => Damping::Viscoelastic,
+            Dashpot::Tsuji => Damping::Tsuji,
+        };
+        let spheres = Material::acrylic();
+        match self.law {
+            Law::Mindlin => self.shake(
+                cavity,
+                HertzMindlin::new(spheres).damping(damping),
+                particles,
+            ),
+            Law::Sliding => {
+                self.shake(cavity, HertzTsuji::new(spheres).damping(damping), particles)
+            }
+            Law::Impulse => self.shake(cavity, RestitutionImpulse::new(spheres), particles),
+        }
+    }
+
+    fn shake<C: Cavity, L: ContactLaw>(
+        &self,
+        cavity: C,
+        law: L,
+        particles: Vec<Particle>,
+    ) -> Result<(), Failure> {
+        let steps = if self.quick { 100 } else { self.steps };
+        let count = particles.len() as f64;
+        let shaken = |time: f64| {
+            let (sine, cosine) = (TAU * FREQUENCY * time).sin_cos();
+            Motion {
+                position: AMPLITUDE * (1.0 - cosine) * DVec3::Y,
+                velocity: TAU * FREQUENCY * AMPLITUDE * sine * DVec3::Y,
+            }
+        };
+        let mut damper = Damper::builder(cavity, law)
+            .mount(Prescribed(shaken))
+            .detector(Skin::new(LinkedCells::new(), self.skin)?)
+            .particles(particles)
+            .time_step(TIME_STEP)
+            .build()?;
+        for _ in 0..WARM_UP {
+            damper.step()?;
+        }
+        let lists = damper.detections();
+        let (mut contacts, mut work) = (0, 0.0);
+        let start = Instant::now();
+        for _ in 0..steps {
+            damper.step()?;
+            contacts += damper.contacts();
+            let force = damper.reaction(0).unwrap_or_default().force;
+            work -= force.y * shaken(damper.time()).velocity.y * TIME_STEP;
+        }
+        let seconds = start.elapsed().as_secs_f64();
+        let (particle_steps, cycles) = (count * steps as f64, steps as f64 * TIME_STEP * FREQUENCY);
+        println!("particles              {count}");
+        println!("steps                  {steps}");
+        println!(
+            "ns/particle/step       {:.2}",
+            1e9 * seconds / particle_steps
+        );
+        println!(
+            "contacts/particle      {:.3}",
+            contacts as f64 / particle_steps
+        );
+        println!("list rebuilds          {}", damper.detections() - lists);
+        println!(
+            "work/cycle             {:.4} mJ over {cycles:.2} cycles",
+            1e3 * work / cycles
+        );
+        println!(
+            "memory/particle        {:.0} B",
+            damper.memory_bytes() as f64 / count
+        );
+        Ok(())
+    }
+}
+
+fn main() -> Result<(), Failure> {
+    Options::parse().run()
+}
