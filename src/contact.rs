@@ -88,9 +88,6 @@ pub struct Contact {
     /// What `velocity` becomes over the step by everything but contacts (gravity, and what moves
     /// the container), in m/s. Differs from `velocity` for impulses at walls alone.
     pub velocity_ahead: DVec3,
-    /// The rate at which `velocity` changed when forces were evaluated last, in m/s^2: with it the
-    /// slip over a step is known to second order. Laws that are evaluated once a step see zero.
-    pub acceleration: DVec3,
     /// Angular velocities of the two bodies in rad/s; zero for a wall.
     pub spins: [DVec3; 2],
     /// Time since the contact's memory was advanced, in s. For an impulse this is the length of the
@@ -112,7 +109,6 @@ impl Contact {
             overlap,
             velocity,
             velocity_ahead: velocity,
-            acceleration: DVec3::ZERO,
             spins: [DVec3::ZERO; 2],
             elapsed: 0.0,
             mobility: DMat3::ZERO,

@@ -17,6 +17,7 @@ use crate::particle::Particle;
 mod block;
 mod builder;
 mod candidates;
+mod chunk;
 mod clock;
 mod coefficients;
 mod detection;
@@ -124,8 +125,6 @@ where
         let impulsive = self.engine.world.law.evaluation() != Evaluation::EveryStage;
         if impulsive {
             self.engine.strike(dt, observer)?;
-        } else {
-            self.engine.start_step();
         }
         let mut step = Step {
             begin: self.clock.time(),

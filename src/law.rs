@@ -23,6 +23,19 @@ pub use hertz::ElasticImpact;
 pub use hertz_mindlin::{HertzMindlin, TangentialSpring};
 pub use hertz_tsuji::HertzTsuji;
 
+/// The greater of two numbers, `least` if either is not one. One instruction where `f64::max` takes
+/// five.
+#[inline(always)]
+const fn at_least(value: f64, least: f64) -> f64 {
+    if value > least { value } else { least }
+}
+
+/// The lesser of two numbers, `most` if either is not one.
+#[inline(always)]
+const fn at_most(value: f64, most: f64) -> f64 {
+    if value < most { value } else { most }
+}
+
 /// When a law may be evaluated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -158,6 +171,13 @@ pub trait ContactLaw {
         0.0
     }
 
+    /// Whether the answers for two bodies can have a [`couple`](ContactForce::couple). A law that says
+    /// no is spared the work: the engine passes over the couples.
+    #[inline]
+    fn has_couple(&self, _coefficients: &Self::Coefficients) -> bool {
+        true
+    }
+
     /// The longest time step in s that two bodies bear under this law.
     fn time_step_limit(&self, _coefficients: &Self::Coefficients) -> f64 {
         f64::INFINITY
@@ -192,6 +212,11 @@ macro_rules! forward_law {
                 memory: &Self::Memory,
             ) -> Self::Memory {
                 (**self).advance(coefficients, contact, memory)
+            }
+
+            #[inline]
+            fn has_couple(&self, coefficients: &Self::Coefficients) -> bool {
+                (**self).has_couple(coefficients)
             }
 
             fn stored(

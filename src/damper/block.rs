@@ -13,9 +13,9 @@ use glam::DVec3;
 
 use super::Partner;
 use super::candidates::{Candidates, Remembered, Touch};
-use super::scene::{PairContact, Scene, WallLoad, wall_contact};
+use super::chunk::{CHUNK, Chunk};
+use super::scene::{Scene, WallLoad};
 use crate::cavity::Cavity;
-use crate::contact::{Contact, ContactForce};
 use crate::law::{ContactLaw, LawError};
 use crate::observer::{ContactEvent, Observer};
 
@@ -55,6 +55,7 @@ pub(crate) struct Block<L: ContactLaw> {
     pub(crate) contacts: usize,
     pub(crate) largest_overlap: f64,
     pub(crate) escaped: Option<Place>,
+    chunk: Box<Chunk<L>>,
 }
 
 impl<L: ContactLaw> Block<L> {
@@ -72,6 +73,7 @@ impl<L: ContactLaw> Block<L> {
             contacts: 0,
             largest_overlap: 0.0,
             escaped: None,
+            chunk: Box::default(),
         }
     }
 
@@ -161,12 +163,14 @@ impl<L: ContactLaw> Block<L> {
         self.parcels.clear();
         self.forget();
         self.contacts = self.contacts_in_reach();
-        self.evaluate_pairs::<C, O, END>(scene, force, torque, observer);
-        self.evaluate_border::<C, O, END>(scene, force, torque, observer);
-        self.evaluate_walls::<C, O, END>(scene, force, torque, observer);
+        if scene.planar {
+            self.evaluate_lists::<C, O, END, true>(scene, force, torque, observer);
+        } else {
+            self.evaluate_lists::<C, O, END, false>(scene, force, torque, observer);
+        }
     }
 
-    fn evaluate_pairs<C: Cavity, O: Observer, const END: bool>(
+    fn evaluate_lists<C: Cavity, O: Observer, const END: bool, const PLANAR: bool>(
         &mut self,
         scene: &Scene<'_, C, L>,
         force: &mut [DVec3],
@@ -175,86 +179,65 @@ impl<L: ContactLaw> Block<L> {
     ) {
         let base = self.slots.start;
         let torque = &mut torque[..force.len()];
-        let deliver = |touch: &Touch, push: DVec3, turns: [DVec3; 2]| {
-            let (i, j) = (touch.first as usize - base, touch.second as usize - base);
-            if i < force.len() && j < force.len() {
-                force[i] += push;
-                torque[i] += turns[0];
-                force[j] -= push;
-                torque[j] += turns[1];
+        let (mut contacts, mut deepest) = (0, 0.0_f64);
+        while contacts < self.pairs.contacts.len() {
+            let (list, chunk) = (&mut self.pairs, &mut *self.chunk);
+            contacts = answer_pairs::<C, L, END, PLANAR>(scene, list, chunk, contacts);
+            deepest = deepest.max(chunk.largest_overlap());
+            for (n, touch) in chunk.touches().iter().enumerate() {
+                let (i, j) = (touch.first as usize - base, touch.second as usize - base);
+                if i < force.len() && j < force.len() {
+                    let (push, [first, second]) = (chunk.push(n), chunk.torques(n));
+                    add_polar::<PLANAR>(&mut force[i], push);
+                    add_axial::<PLANAR>(&mut torque[i], first);
+                    add_polar::<PLANAR>(&mut force[j], -push);
+                    add_axial::<PLANAR>(&mut torque[j], second);
+                }
             }
-        };
-        let pairs = &mut self.pairs;
-        let deepest = answer_pairs::<C, L, O, END>(scene, pairs, observer, deliver);
-        self.largest_overlap = self.largest_overlap.max(deepest);
-    }
-
-    fn evaluate_border<C: Cavity, O: Observer, const END: bool>(
-        &mut self,
-        scene: &Scene<'_, C, L>,
-        force: &mut [DVec3],
-        torque: &mut [DVec3],
-        observer: &mut O,
-    ) {
-        let base = self.slots.start;
-        let parcels = &mut self.parcels;
-        let deliver = |touch: &Touch, push: DVec3, turns: [DVec3; 2]| {
-            let i = touch.first as usize - base;
-            force[i] += push;
-            torque[i] += turns[0];
-            parcels.push(Parcel {
-                slot: touch.second,
-                force: -push,
-                torque: turns[1],
-            });
-        };
-        let border = &mut self.border;
-        let deepest = answer_pairs::<C, L, O, END>(scene, border, observer, deliver);
-        self.largest_overlap = self.largest_overlap.max(deepest);
-    }
-
-    fn evaluate_walls<C: Cavity, O: Observer, const END: bool>(
-        &mut self,
-        scene: &Scene<'_, C, L>,
-        force: &mut [DVec3],
-        torque: &mut [DVec3],
-        observer: &mut O,
-    ) {
-        let base = self.slots.start;
-        for number in 0..self.walls.contacts.len() {
-            let touch = self.walls.touch(number);
-            let (slot, wall) = (touch.first as usize, touch.second);
-            let grain = scene.grain(slot);
-            let point = scene.wall_point(wall, grain.position);
-            let container = scene.room_of_wall(wall).moving(scene.elapsed);
-            let contact = wall_contact(&grain, &point, container, scene.elapsed);
-            let kind = scene.coefficients.wall(scene.species[slot]);
-            let answer = answer::<L, END>(
-                scene.stamp,
-                scene.law,
-                &mut self.walls,
-                touch.place,
-                kind,
-                &contact,
-            );
-            self.largest_overlap = self.largest_overlap.max(contact.overlap);
-            let push = contact.normal * answer.normal + answer.tangential;
-            let arm = contact.normal * -scene.radius[slot];
-            force[slot - base] += push;
-            torque[slot - base] += arm.cross(answer.tangential) + answer.couple;
-            let room = scene.room_of_wall(wall);
-            let place = scene.position[slot] - room.motion.position + arm;
-            self.loads[wall as usize].react(push, answer.couple, place);
-            if point.distance < 0.0 {
-                self.escaped = Some(Place {
-                    slot,
-                    partner: Partner::Wall(wall - room.first_wall),
+            if END && observer.wants_contacts() {
+                report_pairs(scene, list, chunk, observer);
+            }
+        }
+        contacts = 0;
+        while contacts < self.border.contacts.len() {
+            let (list, chunk) = (&mut self.border, &mut *self.chunk);
+            contacts = answer_pairs::<C, L, END, PLANAR>(scene, list, chunk, contacts);
+            deepest = deepest.max(chunk.largest_overlap());
+            for (n, touch) in chunk.touches().iter().enumerate() {
+                let i = touch.first as usize - base;
+                let (push, [first, second]) = (chunk.push(n), chunk.torques(n));
+                add_polar::<PLANAR>(&mut force[i], push);
+                add_axial::<PLANAR>(&mut torque[i], first);
+                self.parcels.push(Parcel {
+                    slot: touch.second,
+                    force: -push,
+                    torque: second,
                 });
             }
             if END && observer.wants_contacts() {
-                report_wall(scene, &self.walls, touch, &contact, &answer, observer);
+                report_pairs(scene, list, chunk, observer);
             }
         }
+        contacts = 0;
+        while contacts < self.walls.contacts.len() {
+            let (list, chunk) = (&mut self.walls, &mut *self.chunk);
+            let escaped = &mut self.escaped;
+            contacts = answer_walls::<C, L, END, PLANAR>(scene, list, chunk, escaped, contacts);
+            deepest = deepest.max(chunk.largest_overlap());
+            for (n, touch) in chunk.touches().iter().enumerate() {
+                let slot = touch.first as usize;
+                let (push, [turn, _]) = (chunk.push(n), chunk.torques(n));
+                add_polar::<PLANAR>(&mut force[slot - base], push);
+                add_axial::<PLANAR>(&mut torque[slot - base], turn);
+                let room = scene.room_of_wall(touch.second);
+                let place = scene.position[slot] - room.motion.position;
+                self.loads[touch.second as usize].react(push, turn, place);
+            }
+            if END && observer.wants_contacts() {
+                report_walls(scene, chunk, observer);
+            }
+        }
+        self.largest_overlap = deepest;
     }
 
     /// How many contacts are within the law's reach.
@@ -309,117 +292,159 @@ impl<L: ContactLaw> Block<L> {
     }
 }
 
-/// The law's answer to a contact; at the end of a step the contact's memory advances.
+/// Adds to a vector whose z is zero if `PLANAR`.
 #[inline(always)]
-fn answer<L: ContactLaw, const END: bool>(
-    stamp: u32,
-    law: &L,
-    list: &mut Candidates<L>,
-    place: u32,
-    kind: &L::Coefficients,
-    contact: &Contact,
-) -> ContactForce {
-    let memory = list.memory(place, stamp);
-    let answer = law.force(kind, contact, &memory);
-    if END {
-        let memory = law.advance(kind, contact, &memory);
-        list.keep(place, stamp.wrapping_add(1), memory);
+fn add_polar<const PLANAR: bool>(sum: &mut DVec3, vector: DVec3) {
+    sum.x += vector.x;
+    sum.y += vector.y;
+    if !PLANAR {
+        sum.z += vector.z;
     }
-    answer
 }
 
-/// Has the law answer the contacts of touching pairs, and delivers force on the first body and torques
-/// on both. Returns the largest overlap.
+/// Adds to a vector whose x and y are zero if `PLANAR`.
 #[inline(always)]
-fn answer_pairs<C: Cavity, L: ContactLaw, O: Observer, const END: bool>(
+fn add_axial<const PLANAR: bool>(sum: &mut DVec3, vector: DVec3) {
+    if !PLANAR {
+        sum.x += vector.x;
+        sum.y += vector.y;
+    }
+    sum.z += vector.z;
+}
+
+/// Has the law answer a chunk of touching pairs from number `from` on. Returns where the next begins.
+#[inline(always)]
+fn answer_pairs<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
     scene: &Scene<'_, C, L>,
     list: &mut Candidates<L>,
-    observer: &mut O,
-    mut deliver: impl FnMut(&Touch, DVec3, [DVec3; 2]),
-) -> f64 {
+    chunk: &mut Chunk<L>,
+    from: usize,
+) -> usize {
     // Columns of one length, so that one comparison stands for all their bounds.
     let count = scene.position.len();
     let even = Scene {
         velocity: &scene.velocity[..count],
         spin: &scene.spin[..count],
-        acceleration: &scene.acceleration[..count],
-        angular_acceleration: &scene.angular_acceleration[..count],
         radius: &scene.radius[..count],
         species: &scene.species[..count],
         ..*scene
     };
-    let watched = END && observer.wants_contacts();
-    let mut deepest = 0.0_f64;
-    for number in 0..list.contacts.len() {
+    let end = list.contacts.len().min(from + CHUNK);
+    chunk.clear();
+    for number in from..end {
         let touch = list.touch(number);
         let (i, j) = (touch.first as usize, touch.second as usize);
-        if i >= count || j >= count {
-            continue;
-        }
-        let pair = PairContact::new(&even.grain(i), &even.grain(j), &touch, even.elapsed);
-        let own = list.prepared(touch.place);
-        let (first, second) = (even.species[i], even.species[j]);
-        let kind = even.coefficients.pair(first, second, own);
-        let (stamp, law) = (scene.stamp, scene.law);
-        let answer = answer::<L, END>(stamp, law, list, touch.place, &kind, &pair.contact);
-        deepest = deepest.max(pair.contact.overlap);
-        let (push, first, second) = pair.resolve(&answer);
-        deliver(&touch, push, [first, second]);
-        if watched {
-            report_pair(scene, list, touch, &pair.contact, &answer, observer);
+        if i < count && j < count {
+            let memory = list.memory(touch.place, even.stamp);
+            chunk.push_pair::<PLANAR>(touch, &even.grain(i), &even.grain(j), memory);
         }
     }
-    deepest
+    let kind = |touch: &Touch| {
+        let first = even.species[touch.first as usize];
+        let second = even.species[touch.second as usize];
+        let own = list.prepared(touch.place);
+        even.coefficients.pair(first, second, own)
+    };
+    let only = even.coefficients.only_pair();
+    chunk.answer::<true, END>(even.law, only, kind, even.elapsed);
+    if END {
+        keep(list, chunk, even.stamp);
+    }
+    end
 }
 
-/// Tells `observer` of a pair in `list`.
-#[cold]
-fn report_pair<C: Cavity, L: ContactLaw>(
+/// Has the law answer a chunk of touching walls from number `from` on, and notes who is behind one.
+/// Returns where the next begins.
+#[inline(always)]
+fn answer_walls<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
     scene: &Scene<'_, C, L>,
-    list: &Candidates<L>,
-    touch: Touch,
-    contact: &Contact,
-    force: &ContactForce,
-    observer: &mut impl Observer,
-) {
-    let (slot, other) = (touch.first as usize, touch.second as usize);
-    let prepared = list.prepared(touch.place);
-    let (first, second) = (scene.species[slot], scene.species[other]);
-    let kind = scene.coefficients.pair(first, second, prepared);
-    let memory = list.memory(touch.place, scene.stamp.wrapping_add(1));
-    observer.contact(&ContactEvent {
-        particle: scene.number[slot] as usize,
-        partner: Partner::Particle(scene.number[other] as usize),
-        cavity: scene.rooms.partition_point(|room| room.slots.end <= slot),
-        contact: *contact,
-        force: *force,
-        stored: scene.law.stored(&kind, contact, &memory),
-        working_velocity: contact.velocity,
-        working_spin: contact.spins[0] - contact.spins[1],
-    });
+    list: &mut Candidates<L>,
+    chunk: &mut Chunk<L>,
+    escaped: &mut Option<Place>,
+    from: usize,
+) -> usize {
+    let end = list.contacts.len().min(from + CHUNK);
+    chunk.clear();
+    for number in from..end {
+        let touch = list.touch(number);
+        let slot = touch.first as usize;
+        let grain = scene.grain(slot);
+        let room = scene.room_of_wall(touch.second);
+        let point = scene.wall_point(touch.second, grain.position);
+        if point.distance < 0.0 {
+            let partner = Partner::Wall(touch.second - room.first_wall);
+            *escaped = Some(Place { slot, partner });
+        }
+        let memory = list.memory(touch.place, scene.stamp);
+        chunk.push_wall::<PLANAR>(touch, &grain, &point, room.motion.velocity, memory);
+    }
+    let kind = |touch: &Touch| {
+        let species = scene.species[touch.first as usize];
+        *scene.coefficients.wall(species)
+    };
+    let only = scene.coefficients.only_wall();
+    chunk.answer::<false, END>(scene.law, only, kind, scene.elapsed);
+    if END {
+        keep(list, chunk, scene.stamp);
+    }
+    end
 }
 
-/// Tells `observer` of a contact with a wall in `list`.
+/// Keeps what the contacts of `chunk` remember at the end of the step after step `stamp`.
+#[inline(always)]
+fn keep<L: ContactLaw>(list: &mut Candidates<L>, chunk: &Chunk<L>, stamp: u32) {
+    for (n, touch) in chunk.touches().iter().enumerate() {
+        list.keep(touch.place, stamp.wrapping_add(1), chunk.advanced(n));
+    }
+}
+
+/// Tells `observer` of the pairs in `chunk`, which are in `list`.
 #[cold]
-fn report_wall<C: Cavity, L: ContactLaw>(
+fn report_pairs<C: Cavity, L: ContactLaw>(
     scene: &Scene<'_, C, L>,
     list: &Candidates<L>,
-    touch: Touch,
-    contact: &Contact,
-    force: &ContactForce,
+    chunk: &Chunk<L>,
     observer: &mut impl Observer,
 ) {
-    let (slot, wall) = (touch.first as usize, touch.second);
-    let kind = scene.coefficients.wall(scene.species[slot]);
-    let memory = list.memory(touch.place, scene.stamp.wrapping_add(1));
-    observer.contact(&ContactEvent {
-        particle: scene.number[slot] as usize,
-        partner: Partner::Wall(wall - scene.room_of_wall(wall).first_wall),
-        cavity: scene.cavity_of_wall(wall),
-        contact: *contact,
-        force: *force,
-        stored: scene.law.stored(kind, contact, &memory),
-        working_velocity: contact.velocity,
-        working_spin: contact.spins[0],
-    });
+    for (n, touch) in chunk.touches().iter().enumerate() {
+        let (slot, other) = (touch.first as usize, touch.second as usize);
+        let prepared = list.prepared(touch.place);
+        let (first, second) = (scene.species[slot], scene.species[other]);
+        let kind = scene.coefficients.pair(first, second, prepared);
+        let (contact, force) = chunk.answered::<true>(scene.law, &kind, n, scene.elapsed);
+        observer.contact(&ContactEvent {
+            particle: scene.number[slot] as usize,
+            partner: Partner::Particle(scene.number[other] as usize),
+            cavity: scene.rooms.partition_point(|room| room.slots.end <= slot),
+            contact,
+            force,
+            stored: scene.law.stored(&kind, &contact, &chunk.advanced(n)),
+            working_velocity: contact.velocity,
+            working_spin: contact.spins[0] - contact.spins[1],
+        });
+    }
+}
+
+/// Tells `observer` of the contacts with walls in `chunk`.
+#[cold]
+fn report_walls<C: Cavity, L: ContactLaw>(
+    scene: &Scene<'_, C, L>,
+    chunk: &Chunk<L>,
+    observer: &mut impl Observer,
+) {
+    for (n, touch) in chunk.touches().iter().enumerate() {
+        let (slot, wall) = (touch.first as usize, touch.second);
+        let kind = scene.coefficients.wall(scene.species[slot]);
+        let (contact, force) = chunk.answered::<false>(scene.law, kind, n, scene.elapsed);
+        observer.contact(&ContactEvent {
+            particle: scene.number[slot] as usize,
+            partner: Partner::Wall(wall - scene.room_of_wall(wall).first_wall),
+            cavity: scene.cavity_of_wall(wall),
+            contact,
+            force,
+            stored: scene.law.stored(kind, &contact, &chunk.advanced(n)),
+            working_velocity: contact.velocity,
+            working_spin: contact.spins[0],
+        });
+    }
 }

@@ -387,7 +387,6 @@ where
                 slots: slot..end,
                 first_wall: wall,
                 motion: Motion::default(),
-                start_velocity: DVec3::ZERO,
                 margin,
             });
             slot = end;

@@ -19,7 +19,7 @@ struct Candidate {
 }
 
 /// Two bodies in contact.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Touch {
     /// Slot of the first body.
     pub(crate) first: u32,

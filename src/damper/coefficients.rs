@@ -89,6 +89,22 @@ impl<K: Copy> Coefficients<K> {
         }
     }
 
+    /// The coefficients of every pair, if there is one kind alone.
+    pub(crate) fn only_pair(&self) -> Option<&K> {
+        match self.pairs.as_deref() {
+            Some([only]) => Some(only),
+            _ => None,
+        }
+    }
+
+    /// The coefficients of every contact with a wall, if there is one kind alone.
+    pub(crate) fn only_wall(&self) -> Option<&K> {
+        match self.walls.as_slice() {
+            [only] => Some(only),
+            _ => None,
+        }
+    }
+
     /// The coefficients of a kind at a wall.
     #[inline(always)]
     pub(crate) fn wall(&self, kind: u32) -> &K {

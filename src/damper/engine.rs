@@ -54,9 +54,6 @@ pub(crate) struct Scratch<L: ContactLaw> {
     pub(crate) memory: [Vec<Remembered<L::Memory>>; 2],
     /// Whether the candidates may still be used.
     pub(crate) listed: bool,
-    /// Where forces and torques are summed up; in turns with the columns of accelerations.
-    force: Vec<DVec3>,
-    torque: Vec<DVec3>,
     /// Velocities, spins and rates of the mount after the impulses so far.
     pub(crate) velocity: Vec<DVec3>,
     pub(crate) spin: Vec<DVec3>,
@@ -79,13 +76,7 @@ impl<L: ContactLaw> Scratch<L> {
 
     /// Memory in bytes that it has reserved.
     pub(crate) fn reserved_bytes(&self) -> usize {
-        let vectors = [
-            &self.reference,
-            &self.force,
-            &self.torque,
-            &self.velocity,
-            &self.spin,
-        ];
+        let vectors = [&self.reference, &self.velocity, &self.spin];
         let remembered = self.memory.iter().map(Vec::capacity).sum::<usize>();
         size_of::<DVec3>() * vectors.map(Vec::capacity).iter().sum::<usize>()
             + size_of::<u32>() * (self.rows.capacity() + self.partners.capacity())
@@ -103,8 +94,6 @@ impl<L: ContactLaw> Default for Scratch<L> {
             reference: Vec::new(),
             memory: [Vec::new(), Vec::new()],
             listed: false,
-            force: Vec::new(),
-            torque: Vec::new(),
             velocity: Vec::new(),
             spin: Vec::new(),
             rates: Vec::new(),
@@ -175,17 +164,6 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         Ok(())
     }
 
-    /// Notes how the containers move at the start of a step.
-    pub(crate) fn start_step(&mut self) {
-        let degrees = self.mount.degrees();
-        let coordinates = &self.mount_state.position[..degrees];
-        let rates = &self.mount_state.velocity[..degrees];
-        for (cavity, room) in self.world.rooms.iter_mut().enumerate() {
-            let motion = self.mount.motion(self.time, coordinates, rates, cavity);
-            room.start_velocity = motion.velocity;
-        }
-    }
-
     /// Refuses positions that are not finite.
     pub(crate) fn check_finite(&self) -> Result<(), StepError> {
         let bad = self
@@ -210,10 +188,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         elapsed: f64,
         observer: &mut O,
     ) -> Result<(), StepError> {
-        let mut force = std::mem::take(&mut self.scratch.force);
-        let mut torque = std::mem::take(&mut self.scratch.torque);
-        force.resize(self.particles.len(), DVec3::ZERO);
-        torque.resize(self.particles.len(), DVec3::ZERO);
+        // Forces are summed up where the accelerations will be.
+        let mut force = std::mem::take(&mut self.particles.acceleration);
+        let mut torque = std::mem::take(&mut self.particles.angular_acceleration);
         let scene = self.world.scene(&self.particles, elapsed);
         for block in &mut self.blocks {
             let slots = block.slots.clone();
@@ -236,9 +213,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             *torque *= *inverse;
             sum += *torque;
         }
-        self.scratch.force = std::mem::replace(&mut self.particles.acceleration, force);
-        let turning = &mut self.particles.angular_acceleration;
-        self.scratch.torque = std::mem::replace(turning, torque);
+        self.particles.acceleration = force;
+        self.particles.angular_acceleration = torque;
 
         self.wall_loads.fill(WallLoad::default());
         for block in &self.blocks {

@@ -174,7 +174,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     let coordinates = &self.mount_state.position[..degrees];
                     let container = self.mount.motion(self.time, coordinates, rates, cavity);
                     let grain = struck(&scene, slot, velocity, spin);
-                    wall_contact(&grain, &point, [container.velocity, DVec3::ZERO], time_step)
+                    wall_contact(&grain, &point, container.velocity, time_step)
                 };
                 let mut contact = if sequential {
                     working(velocity, spin, rates)
@@ -182,7 +182,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     wall_contact(
                         &struck(&scene, slot, scene.velocity, scene.spin),
                         &point,
-                        [room.motion.velocity, DVec3::ZERO],
+                        room.motion.velocity,
                         time_step,
                     )
                 };
@@ -255,7 +255,6 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let grain = struck(touch.first as usize);
                 let point = scene.wall_point(touch.second, grain.position);
                 let container = scene.room_of_wall(touch.second).motion.velocity;
-                let container = [container, DVec3::ZERO];
                 let contact = wall_contact(&grain, &point, container, time_step);
                 let kind = scene
                     .coefficients
@@ -298,8 +297,6 @@ fn struck<C: Cavity, L: ContactLaw>(
     Grain {
         velocity: velocity[slot],
         spin: spin[slot],
-        acceleration: DVec3::ZERO,
-        angular_acceleration: DVec3::ZERO,
         ..scene.grain(slot)
     }
 }

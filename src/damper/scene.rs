@@ -25,8 +25,6 @@ pub(crate) struct Room<C> {
     pub(crate) first_wall: u32,
     /// Where its container is, and how it moves.
     pub(crate) motion: Motion,
-    /// Its velocity at the start of the step.
-    pub(crate) start_velocity: DVec3,
     /// How much farther than the law's reach candidates are listed, m: they can be trusted while no
     /// particle has moved by half of it.
     pub(crate) margin: f64,
@@ -46,7 +44,7 @@ pub(crate) struct World<C, L: ContactLaw> {
     pub(crate) stamp: u32,
 }
 
-impl<C, L: ContactLaw> World<C, L> {
+impl<C: Cavity, L: ContactLaw> World<C, L> {
     /// The scene of `particles`, `elapsed` seconds after memories were advanced.
     pub(crate) fn scene<'a>(&'a self, particles: &'a Particles, elapsed: f64) -> Scene<'a, C, L> {
         Scene {
@@ -57,16 +55,17 @@ impl<C, L: ContactLaw> World<C, L> {
             position: &particles.position,
             velocity: &particles.velocity,
             spin: &particles.spin,
-            acceleration: &particles.acceleration,
-            angular_acceleration: &particles.angular_acceleration,
             radius: &particles.radius,
             species: &particles.species,
             number: &particles.number,
             elapsed,
             stamp: self.stamp,
+            planar: self.rooms.iter().all(|room| room.cavity.is_planar()),
         }
     }
+}
 
+impl<C, L: ContactLaw> World<C, L> {
     /// Number of the cavity whose particle is in `slot`.
     pub(crate) fn cavity_of(&self, slot: usize) -> usize {
         self.rooms.partition_point(|room| room.slots.end <= slot)
@@ -82,9 +81,6 @@ pub(crate) struct Scene<'a, C, L: ContactLaw> {
     pub(crate) position: &'a [DVec3],
     pub(crate) velocity: &'a [DVec3],
     pub(crate) spin: &'a [DVec3],
-    /// As they were evaluated last.
-    pub(crate) acceleration: &'a [DVec3],
-    pub(crate) angular_acceleration: &'a [DVec3],
     pub(crate) radius: &'a [f64],
     pub(crate) species: &'a [u32],
     pub(crate) number: &'a [u32],
@@ -92,6 +88,8 @@ pub(crate) struct Scene<'a, C, L: ContactLaw> {
     pub(crate) elapsed: f64,
     /// Number of the last accepted step.
     pub(crate) stamp: u32,
+    /// Whether everything moves in the plane z = 0.
+    pub(crate) planar: bool,
 }
 
 /// What a contact needs to know of a particle.
@@ -100,8 +98,6 @@ pub(crate) struct Grain {
     pub(crate) position: DVec3,
     pub(crate) velocity: DVec3,
     pub(crate) spin: DVec3,
-    pub(crate) acceleration: DVec3,
-    pub(crate) angular_acceleration: DVec3,
     pub(crate) radius: f64,
 }
 
@@ -119,16 +115,12 @@ impl PairContact {
         let normal = (first.position - second.position) * touch.inverse;
         let turning = first.spin * first.radius + second.spin * second.radius;
         let velocity = first.velocity - second.velocity - turning.cross(normal);
-        let turning =
-            first.angular_acceleration * first.radius + second.angular_acceleration * second.radius;
-        let acceleration = first.acceleration - second.acceleration - turning.cross(normal);
         Self {
             contact: Contact {
                 normal,
                 overlap: first.radius + second.radius - touch.distance,
                 velocity,
                 velocity_ahead: velocity,
-                acceleration,
                 spins: [first.spin, second.spin],
                 elapsed,
                 mobility: DMat3::ZERO,
@@ -149,25 +141,22 @@ impl PairContact {
     }
 }
 
-/// The contact of a particle with a wall that stands to it as `wall`, in a container of a velocity
-/// and an acceleration.
+/// The contact of a particle with a wall that stands to it as `wall`, in a container that moves with
+/// velocity `container`.
 #[inline(always)]
 pub(crate) fn wall_contact(
     grain: &Grain,
     wall: &WallPoint,
-    container: [DVec3; 2],
+    container: DVec3,
     elapsed: f64,
 ) -> Contact {
     let turning = grain.spin * grain.radius;
-    let velocity = grain.velocity - container[0] - turning.cross(wall.normal);
-    let turning = grain.angular_acceleration * grain.radius;
-    let acceleration = grain.acceleration - container[1] - turning.cross(wall.normal);
+    let velocity = grain.velocity - container - turning.cross(wall.normal);
     Contact {
         normal: wall.normal,
         overlap: grain.radius - wall.distance,
         velocity,
         velocity_ahead: velocity,
-        acceleration,
         spins: [grain.spin, DVec3::ZERO],
         elapsed,
         mobility: DMat3::ZERO,
@@ -180,15 +169,6 @@ impl<C> Room<C> {
         let start = self.slots.start.clamp(slots.start, slots.end);
         start..self.slots.end.clamp(start, slots.end)
     }
-
-    /// Velocity of the container, and its mean acceleration since the start of the step.
-    #[inline(always)]
-    pub(crate) fn moving(&self, elapsed: f64) -> [DVec3; 2] {
-        let velocity = self.motion.velocity;
-        let gain = velocity - self.start_velocity;
-        let rate = if elapsed > 0.0 { 1.0 / elapsed } else { 0.0 };
-        [velocity, gain * rate]
-    }
 }
 
 impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
@@ -199,8 +179,6 @@ impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
             position: self.position[slot],
             velocity: self.velocity[slot],
             spin: self.spin[slot],
-            acceleration: self.acceleration[slot],
-            angular_acceleration: self.angular_acceleration[slot],
             radius: self.radius[slot],
         }
     }

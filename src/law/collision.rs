@@ -100,19 +100,6 @@ impl<'l, L: ContactLaw> Collision<'l, L> {
             let velocity = self.velocity[0] - self.velocity[1] + turning;
             Contact::new(normal, reach + other - apart.length(), velocity)
         };
-        let rate = |column: &[DVec3]| {
-            let other = *column.get(1).unwrap_or(&DVec3::ZERO);
-            (column[0], other)
-        };
-        let (first, second) = rate(&self.acceleration);
-        let (turning, other) = rate(&self.spin_rate);
-        let radius = if self.bodies.at_wall() {
-            0.0
-        } else {
-            self.bodies.second.radius
-        };
-        let turning = (turning * reach + other * radius).cross(contact.normal);
-        contact.acceleration = first - second - turning;
         contact.spins = [self.spin[0], *self.spin.get(1).unwrap_or(&DVec3::ZERO)];
         contact.elapsed = elapsed;
         contact

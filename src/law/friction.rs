@@ -1,5 +1,7 @@
 use glam::DVec3;
 
+use super::at_least;
+
 use crate::contact::{Bodies, Contact};
 use crate::error::{Bound, ValueError};
 use crate::material::Interaction;
@@ -90,8 +92,8 @@ impl Friction {
     pub(super) fn force(self, grip: &Grip, contact: &Contact, pressing: f64) -> DVec3 {
         let slip = contact.slip();
         let limit = grip.friction * pressing;
-        let fades = self.slip_speed.max(contact.elapsed * limit * grip.stop);
-        slip * (-limit / slip.length().max(fades))
+        let fades = at_least(contact.elapsed * limit * grip.stop, self.slip_speed);
+        slip * (-limit / at_least(slip.length(), fades))
     }
 }
 
@@ -124,6 +126,11 @@ impl Rolling {
         }
     }
 
+    /// Whether there is any.
+    pub(super) const fn resists(&self) -> bool {
+        self.arm != 0.0
+    }
+
     /// The couple on the first body under the normal force `pressing` (N, not negative).
     #[inline(always)]
     pub(super) fn couple(&self, contact: &Contact, pressing: f64) -> DVec3 {
@@ -132,15 +139,15 @@ impl Rolling {
         }
         let spin = contact.spins[0] - contact.spins[1];
         let limit = self.arm * pressing;
-        let fades = TINY.max(contact.elapsed * limit * self.stop);
-        spin * (-limit / spin.length().max(fades))
+        let fades = at_least(contact.elapsed * limit * self.stop, TINY);
+        spin * (-limit / at_least(spin.length(), fades))
     }
 }
 
 /// The factor that cuts `force` down to the length `limit` (not negative).
 #[inline(always)]
 pub(super) fn share(force: DVec3, limit: f64) -> f64 {
-    limit / force.length().max(limit).max(TINY)
+    limit / at_least(at_least(force.length(), limit), TINY)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@ use glam::DVec3;
 
 use super::friction::{PART_PER_STEP, Rolling, SLIP_MOBILITY, share};
 use super::normal::{Normal, NormalCoefficients, NormalForce, strict_law};
-use super::{ContactLaw, LawError};
+use super::{ContactLaw, LawError, at_least, at_most};
 use crate::contact::{Bodies, Contact, ContactForce, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::Materials;
@@ -61,6 +61,8 @@ pub struct Coefficients {
 pub struct TangentialSpring {
     /// What the spring bears, `k_t xi`, in N.
     load: DVec3,
+    /// Relative velocity in the tangent plane in m/s.
+    slip: DVec3,
     /// Square root of the overlap in m^(1/2).
     root: f64,
 }
@@ -70,6 +72,8 @@ pub struct TangentialSpring {
 struct Tangential {
     /// What the spring bears, in N.
     load: DVec3,
+    /// Relative velocity in the tangent plane in m/s.
+    slip: DVec3,
     /// The force on the first body, in N.
     force: DVec3,
 }
@@ -103,22 +107,21 @@ impl HertzMindlin {
     ) -> Tangential {
         let (slip, dt) = (contact.slip(), contact.elapsed);
         // While the overlap grows the load is kept, while it falls the stretch.
-        let kept = (normal.root / memory.root).min(1.0);
-        // With velocity v and acceleration a the slip over the step is v dt - a dt^2/2, to second
-        // order.
-        let gain = coefficients.shear * normal.root * dt;
-        let slid = slip - contact.acceleration * (0.5 * dt);
-        let before = memory.load * kept + slid * gain;
+        let kept = at_most(normal.root / memory.root, 1.0);
+        // The trapezoidal rule. A contact that begins has slipped for half of the step on average.
+        let gain = coefficients.shear * normal.root * (0.5 * dt);
+        let before = memory.load * kept + (memory.slip + slip) * gain;
         let load = before - before.dot(contact.normal) * contact.normal;
 
         let bearable = coefficients.stop * (1.0 / dt);
-        let damping = slip * (self.damping_ratio * normal.resistance).min(bearable);
-        let limit = coefficients.friction * normal.force.max(0.0);
+        let damping = slip * at_most(self.damping_ratio * normal.resistance, bearable);
+        let limit = coefficients.friction * at_least(normal.force, 0.0);
         let whole = load + damping;
         // Where the contact slides, the load falls along with the force.
         let share = share(whole, limit);
         Tangential {
             load: load * share,
+            slip,
             force: whole * -share,
         }
     }
@@ -162,7 +165,9 @@ impl ContactLaw for HertzMindlin {
             tangential: self
                 .tangential(coefficients, contact, &normal, memory)
                 .force,
-            couple: coefficients.rolling.couple(contact, normal.force.max(0.0)),
+            couple: coefficients
+                .rolling
+                .couple(contact, at_least(normal.force, 0.0)),
         }
     }
 
@@ -174,11 +179,17 @@ impl ContactLaw for HertzMindlin {
         memory: &TangentialSpring,
     ) -> TangentialSpring {
         let normal = self.normal.at(&coefficients.normal, contact);
-        let Tangential { load, .. } = self.tangential(coefficients, contact, &normal, memory);
+        let Tangential { load, slip, .. } = self.tangential(coefficients, contact, &normal, memory);
         TangentialSpring {
             load,
+            slip,
             root: normal.root,
         }
+    }
+
+    #[inline]
+    fn has_couple(&self, coefficients: &Coefficients) -> bool {
+        coefficients.rolling.resists()
     }
 
     fn stored(

@@ -1,6 +1,6 @@
 use super::friction::{Friction, Grip};
 use super::normal::{NormalCoefficients, NormalForce, strict_law};
-use super::{ContactLaw, LawError};
+use super::{ContactLaw, LawError, at_least};
 use crate::contact::{Bodies, Contact, ContactForce, Stored};
 use crate::material::Materials;
 
@@ -95,12 +95,17 @@ impl ContactLaw for HertzTsuji {
     #[inline(always)]
     fn force(&self, coefficients: &Coefficients, contact: &Contact, (): &()) -> ContactForce {
         let normal = self.normal.at(&coefficients.normal, contact).force;
-        let pressing = normal.max(0.0);
+        let pressing = at_least(normal, 0.0);
         ContactForce {
             normal,
             tangential: self.friction.force(&coefficients.grip, contact, pressing),
             couple: coefficients.grip.rolling.couple(contact, pressing),
         }
+    }
+
+    #[inline]
+    fn has_couple(&self, coefficients: &Coefficients) -> bool {
+        coefficients.grip.rolling.resists()
     }
 
     fn stored(&self, coefficients: &Coefficients, contact: &Contact, (): &()) -> Stored {

@@ -1,8 +1,8 @@
 //! The normal force that the strict laws share.
 
-use super::LawError;
 use super::damping::{Damping, Ending};
 use super::hertz::ElasticImpact;
+use super::{LawError, at_least};
 use crate::contact::{Bodies, Contact, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::{Interaction, Material, MaterialId, Materials};
@@ -157,7 +157,7 @@ impl NormalForce {
     #[inline(always)]
     pub(super) fn at(&self, coefficients: &NormalCoefficients, contact: &Contact) -> Normal {
         // Rounding can leave touching bodies with an overlap of zero, or a hair less.
-        let overlap = contact.overlap.max(f64::MIN_POSITIVE);
+        let overlap = at_least(contact.overlap, f64::MIN_POSITIVE);
         let root = overlap.sqrt();
         let shape = match self.damping {
             Damping::Viscoelastic => root,
@@ -170,7 +170,7 @@ impl NormalForce {
             root,
             resistance,
             force: match self.ending {
-                Ending::NeverPulling => force.max(0.0),
+                Ending::NeverPulling => at_least(force, 0.0),
                 Ending::PullingAllowed => force,
             },
         }

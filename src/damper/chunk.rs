@@ -1,0 +1,309 @@
+//! Contacts side by side: what a law is asked of several of them, in columns.
+//!
+//! The law is asked in a loop over columns of numbers, without a branch of the engine's own: so the
+//! compiler can answer as many contacts at a time as the processor's vectors hold. The bits are those
+//! of one at a time.
+
+// Small functions of the innermost loop: the compiler must see the loop whole.
+#![allow(clippy::inline_always)]
+
+use glam::{DMat3, DVec3};
+
+use super::candidates::Touch;
+use super::scene::Grain;
+use crate::cavity::WallPoint;
+use crate::contact::{Contact, ContactForce};
+use crate::law::ContactLaw;
+
+/// How many contacts are side by side at the most.
+pub(crate) const CHUNK: usize = 32;
+
+type Column = [f64; CHUNK];
+
+/// A column of vectors.
+#[derive(Debug, Clone)]
+struct Vectors {
+    x: Column,
+    y: Column,
+    z: Column,
+}
+
+impl Vectors {
+    const ZERO: Self = Self {
+        x: [0.0; CHUNK],
+        y: [0.0; CHUNK],
+        z: [0.0; CHUNK],
+    };
+
+    #[inline(always)]
+    const fn set(&mut self, n: usize, vector: DVec3) {
+        self.x[n] = vector.x;
+        self.y[n] = vector.y;
+        self.z[n] = vector.z;
+    }
+
+    #[inline(always)]
+    const fn get(&self, n: usize) -> DVec3 {
+        DVec3::new(self.x[n], self.y[n], self.z[n])
+    }
+
+    /// Sets a vector whose z is zero if `PLANAR`, and was never anything else.
+    #[inline(always)]
+    const fn set_polar<const PLANAR: bool>(&mut self, n: usize, vector: DVec3) {
+        self.x[n] = vector.x;
+        self.y[n] = vector.y;
+        if !PLANAR {
+            self.z[n] = vector.z;
+        }
+    }
+
+    /// Sets a vector whose x and y are zero if `PLANAR`, and were never anything else.
+    #[inline(always)]
+    const fn set_axial<const PLANAR: bool>(&mut self, n: usize, vector: DVec3) {
+        if !PLANAR {
+            self.x[n] = vector.x;
+            self.y[n] = vector.y;
+        }
+        self.z[n] = vector.z;
+    }
+}
+
+/// Up to [`CHUNK`] contacts, all of pairs or all with walls, and what the law answers. With `PLANAR`
+/// all of them lie in the plane z = 0.
+#[derive(Debug, Clone)]
+pub(crate) struct Chunk<L: ContactLaw> {
+    count: usize,
+    touches: [Touch; CHUNK],
+    /// From the second body to the first: of two spheres as far as their centres are apart (m), of a
+    /// sphere and a wall the normal.
+    towards: Vectors,
+    /// Velocity of the first centre relative to the second body's, m/s.
+    velocity: Vectors,
+    spins: [Vectors; 2],
+    /// Zero for a wall.
+    radii: [Column; 2],
+    overlap: Column,
+    kinds: Vec<L::Coefficients>,
+    memory: [L::Memory; CHUNK],
+    advanced: [L::Memory; CHUNK],
+    push: Vectors,
+    torques: [Vectors; 2],
+}
+
+impl<L: ContactLaw> Default for Chunk<L> {
+    fn default() -> Self {
+        Self {
+            count: 0,
+            touches: [Touch::default(); CHUNK],
+            towards: Vectors::ZERO,
+            velocity: Vectors::ZERO,
+            spins: [Vectors::ZERO; 2],
+            radii: [[0.0; CHUNK]; 2],
+            overlap: [0.0; CHUNK],
+            kinds: Vec::with_capacity(CHUNK),
+            memory: [L::Memory::default(); CHUNK],
+            advanced: [L::Memory::default(); CHUNK],
+            push: Vectors::ZERO,
+            torques: [Vectors::ZERO; 2],
+        }
+    }
+}
+
+impl<L: ContactLaw> Chunk<L> {
+    /// The contacts.
+    #[inline(always)]
+    pub(crate) fn touches(&self) -> &[Touch] {
+        &self.touches[..self.count.min(CHUNK)]
+    }
+
+    #[inline(always)]
+    pub(crate) fn clear(&mut self) {
+        self.count = 0;
+        self.kinds.clear();
+    }
+
+    /// Adds the contact of two spheres. Of a full chunk the last contact is lost.
+    #[inline(always)]
+    pub(crate) fn push_pair<const PLANAR: bool>(
+        &mut self,
+        touch: Touch,
+        first: &Grain,
+        second: &Grain,
+        memory: L::Memory,
+    ) {
+        let n = self.count.min(CHUNK - 1);
+        self.count = n + 1;
+        self.touches[n] = touch;
+        let towards = first.position - second.position;
+        let velocity = first.velocity - second.velocity;
+        self.towards.set_polar::<PLANAR>(n, towards);
+        self.velocity.set_polar::<PLANAR>(n, velocity);
+        self.spins[0].set_axial::<PLANAR>(n, first.spin);
+        self.spins[1].set_axial::<PLANAR>(n, second.spin);
+        self.radii[0][n] = first.radius;
+        self.radii[1][n] = second.radius;
+        self.memory[n] = memory;
+    }
+
+    /// Adds the contact of a sphere with a wall that stands to it as `wall`, in a container that
+    /// moves with velocity `container`. Of a full chunk the last contact is lost.
+    #[inline(always)]
+    pub(crate) fn push_wall<const PLANAR: bool>(
+        &mut self,
+        touch: Touch,
+        grain: &Grain,
+        wall: &WallPoint,
+        container: DVec3,
+        memory: L::Memory,
+    ) {
+        let n = self.count.min(CHUNK - 1);
+        self.count = n + 1;
+        self.touches[n] = touch;
+        self.towards.set_polar::<PLANAR>(n, wall.normal);
+        let velocity = grain.velocity - container;
+        self.velocity.set_polar::<PLANAR>(n, velocity);
+        self.spins[0].set_axial::<PLANAR>(n, grain.spin);
+        self.spins[1].set_axial::<PLANAR>(n, DVec3::ZERO);
+        self.radii[0][n] = grain.radius;
+        self.radii[1][n] = 0.0;
+        self.overlap[n] = grain.radius - wall.distance;
+        self.memory[n] = memory;
+    }
+
+    /// The contact of a number, `elapsed` seconds after its memory was advanced. Coincident centres
+    /// have no normal and feel no force.
+    #[inline(always)]
+    pub(crate) fn contact<const PAIRS: bool>(&self, n: usize, elapsed: f64) -> Contact {
+        let radii = self.radii.each_ref().map(|radii| radii[n]);
+        let spins = self.spins.each_ref().map(|spins| spins.get(n));
+        let towards = self.towards.get(n);
+        let (normal, overlap) = if PAIRS {
+            let distance = towards.length();
+            let inverse = 1.0 / (distance + f64::MIN_POSITIVE);
+            (towards * inverse, radii[0] + radii[1] - distance)
+        } else {
+            (towards, self.overlap[n])
+        };
+        let turning = spins[0] * radii[0] + spins[1] * radii[1];
+        let velocity = self.velocity.get(n) - turning.cross(normal);
+        Contact {
+            normal,
+            overlap,
+            velocity,
+            velocity_ahead: velocity,
+            spins,
+            elapsed,
+            mobility: DMat3::ZERO,
+        }
+    }
+
+    /// Has `law` answer the contacts, with the coefficients that `kind` finds for them if they have
+    /// not all the `only` ones. With `END` their memory advances.
+    #[inline(always)]
+    pub(crate) fn answer<const PAIRS: bool, const END: bool>(
+        &mut self,
+        law: &L,
+        only: Option<&L::Coefficients>,
+        kind: impl FnMut(&Touch) -> L::Coefficients,
+        elapsed: f64,
+    ) {
+        if let Some(only) = only {
+            if law.has_couple(only) {
+                self.answer_alike::<PAIRS, END, true>(law, only, elapsed);
+            } else {
+                self.answer_alike::<PAIRS, END, false>(law, only, elapsed);
+            }
+        } else {
+            let count = self.count.min(CHUNK);
+            self.kinds.extend(self.touches[..count].iter().map(kind));
+            self.answer_mixed::<PAIRS, END>(law, elapsed);
+        }
+    }
+
+    #[inline(never)]
+    fn answer_alike<const PAIRS: bool, const END: bool, const COUPLE: bool>(
+        &mut self,
+        law: &L,
+        kind: &L::Coefficients,
+        elapsed: f64,
+    ) {
+        let kind = *kind;
+        for n in 0..self.count.min(CHUNK) {
+            self.answer_one::<PAIRS, END, COUPLE>(law, &kind, n, elapsed);
+        }
+    }
+
+    #[inline(never)]
+    fn answer_mixed<const PAIRS: bool, const END: bool>(&mut self, law: &L, elapsed: f64) {
+        for n in 0..self.kinds.len().min(CHUNK) {
+            let kind = self.kinds[n];
+            self.answer_one::<PAIRS, END, true>(law, &kind, n, elapsed);
+        }
+    }
+
+    #[inline(always)]
+    fn answer_one<const PAIRS: bool, const END: bool, const COUPLE: bool>(
+        &mut self,
+        law: &L,
+        kind: &L::Coefficients,
+        n: usize,
+        elapsed: f64,
+    ) {
+        let contact = self.contact::<PAIRS>(n, elapsed);
+        let memory = self.memory[n];
+        let answer = law.force(kind, &contact, &memory);
+        if END {
+            self.advanced[n] = law.advance(kind, &contact, &memory);
+        }
+        self.overlap[n] = contact.overlap;
+        let normal = contact.normal;
+        self.push.set(n, normal * answer.normal + answer.tangential);
+        let turn = answer.tangential.cross(normal);
+        let [first, second] = self.radii.each_ref().map(|radii| turn * radii[n]);
+        if COUPLE {
+            self.torques[0].set(n, first + answer.couple);
+            self.torques[1].set(n, second - answer.couple);
+        } else {
+            self.torques[0].set(n, first);
+            self.torques[1].set(n, second);
+        }
+    }
+
+    /// Force on the first body of a contact, in N; the second feels the opposite.
+    #[inline(always)]
+    pub(crate) const fn push(&self, n: usize) -> DVec3 {
+        self.push.get(n)
+    }
+
+    /// Torques on the two bodies of a contact, in N m.
+    #[inline(always)]
+    pub(crate) const fn torques(&self, n: usize) -> [DVec3; 2] {
+        [self.torques[0].get(n), self.torques[1].get(n)]
+    }
+
+    /// What a contact remembers at the end of the step.
+    #[inline(always)]
+    pub(crate) const fn advanced(&self, n: usize) -> L::Memory {
+        self.advanced[n]
+    }
+
+    /// A contact and the force that the law gave it, with coefficients `kind`.
+    pub(crate) fn answered<const PAIRS: bool>(
+        &self,
+        law: &L,
+        kind: &L::Coefficients,
+        n: usize,
+        elapsed: f64,
+    ) -> (Contact, ContactForce) {
+        let contact = self.contact::<PAIRS>(n, elapsed);
+        (contact, law.force(kind, &contact, &self.memory[n]))
+    }
+
+    /// The largest overlap in m.
+    #[inline(always)]
+    pub(crate) fn largest_overlap(&self) -> f64 {
+        let overlaps = &self.overlap[..self.count.min(CHUNK)];
+        let larger = |a: f64, b: &f64| if *b > a { *b } else { a };
+        overlaps.iter().fold(0.0, larger)
+    }
+}
