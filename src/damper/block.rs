@@ -134,7 +134,6 @@ impl<L: ContactLaw> Block<L> {
         let position = scene.position;
         for list in [&mut self.pairs, &mut self.border] {
             list.find(|i, j| position[i].distance_squared(position[j as usize]));
-            list.take_roots();
         }
         self.walls
             .find(|i, wall| scene.wall_point(wall, position[i]).distance);
@@ -179,62 +178,62 @@ impl<L: ContactLaw> Block<L> {
     ) {
         let base = self.slots.start;
         let torque = &mut torque[..force.len()];
-        let (mut contacts, mut deepest) = (0, 0.0_f64);
-        while contacts < self.pairs.contacts.len() {
-            let (list, chunk) = (&mut self.pairs, &mut *self.chunk);
-            contacts = answer_pairs::<C, L, END, PLANAR>(scene, list, chunk, contacts);
+        let chunk = &mut *self.chunk;
+        let mut deepest = 0.0_f64;
+        let list = &mut self.pairs;
+        for run in runs(list.contacts.len()) {
+            answer_pairs::<C, L, END, PLANAR>(scene, list, chunk, run.clone());
             deepest = deepest.max(chunk.largest_overlap());
-            for (n, touch) in chunk.touches().iter().enumerate() {
-                let (i, j) = (touch.first as usize - base, touch.second as usize - base);
-                if i < force.len() && j < force.len() {
-                    let (push, [first, second]) = (chunk.push(n), chunk.torques(n));
-                    add_polar::<PLANAR>(&mut force[i], push);
-                    add_axial::<PLANAR>(&mut torque[i], first);
-                    add_polar::<PLANAR>(&mut force[j], -push);
-                    add_axial::<PLANAR>(&mut torque[j], second);
-                }
-            }
-            if END && observer.wants_contacts() {
-                report_pairs(scene, list, chunk, observer);
-            }
-        }
-        contacts = 0;
-        while contacts < self.border.contacts.len() {
-            let (list, chunk) = (&mut self.border, &mut *self.chunk);
-            contacts = answer_pairs::<C, L, END, PLANAR>(scene, list, chunk, contacts);
-            deepest = deepest.max(chunk.largest_overlap());
-            for (n, touch) in chunk.touches().iter().enumerate() {
-                let i = touch.first as usize - base;
+            for (n, [i, j]) in list.contacts.bodies()[run.clone()].iter().enumerate() {
+                let (n, i, j) = (n % CHUNK, *i as usize - base, *j as usize - base);
                 let (push, [first, second]) = (chunk.push(n), chunk.torques(n));
                 add_polar::<PLANAR>(&mut force[i], push);
                 add_axial::<PLANAR>(&mut torque[i], first);
+                add_polar::<PLANAR>(&mut force[j], -push);
+                add_axial::<PLANAR>(&mut torque[j], second);
+            }
+            if END && observer.wants_contacts() {
+                report_pairs(scene, list, chunk, run, observer);
+            }
+        }
+        let list = &mut self.border;
+        for run in runs(list.contacts.len()) {
+            answer_pairs::<C, L, END, PLANAR>(scene, list, chunk, run.clone());
+            deepest = deepest.max(chunk.largest_overlap());
+            for (n, [i, j]) in list.contacts.bodies()[run.clone()].iter().enumerate() {
+                let (push, [first, second]) = (chunk.push(n), chunk.torques(n));
+                let i = *i as usize - base;
+                add_polar::<PLANAR>(&mut force[i], push);
+                add_axial::<PLANAR>(&mut torque[i], first);
                 self.parcels.push(Parcel {
-                    slot: touch.second,
+                    slot: *j,
                     force: -push,
                     torque: second,
                 });
             }
             if END && observer.wants_contacts() {
-                report_pairs(scene, list, chunk, observer);
+                report_pairs(scene, list, chunk, run, observer);
             }
         }
-        contacts = 0;
-        while contacts < self.walls.contacts.len() {
-            let (list, chunk) = (&mut self.walls, &mut *self.chunk);
-            let escaped = &mut self.escaped;
-            contacts = answer_walls::<C, L, END, PLANAR>(scene, list, chunk, escaped, contacts);
+        let list = &mut self.walls;
+        for run in runs(list.contacts.len()) {
+            answer_walls::<C, L, END, PLANAR>(scene, list, chunk, run.clone());
             deepest = deepest.max(chunk.largest_overlap());
-            for (n, touch) in chunk.touches().iter().enumerate() {
-                let slot = touch.first as usize;
+            for (n, [slot, wall]) in list.contacts.bodies()[run.clone()].iter().enumerate() {
                 let (push, [turn, _]) = (chunk.push(n), chunk.torques(n));
+                let slot = *slot as usize;
                 add_polar::<PLANAR>(&mut force[slot - base], push);
                 add_axial::<PLANAR>(&mut torque[slot - base], turn);
-                let room = scene.room_of_wall(touch.second);
+                let room = scene.room_of_wall(*wall);
                 let place = scene.position[slot] - room.motion.position;
-                self.loads[touch.second as usize].react(push, turn, place);
+                self.loads[*wall as usize].react(push, turn, place);
+                if chunk.overlap(n) > scene.radius[slot] {
+                    let partner = Partner::Wall(wall - room.first_wall);
+                    self.escaped = Some(Place { slot, partner });
+                }
             }
             if END && observer.wants_contacts() {
-                report_walls(scene, chunk, observer);
+                report_walls(scene, list, chunk, run, observer);
             }
         }
         self.largest_overlap = deepest;
@@ -250,13 +249,13 @@ impl<L: ContactLaw> Block<L> {
         &self,
         scene: &Scene<'_, C, L>,
     ) -> impl Iterator<Item = (f64, usize, usize)> {
-        self.pairs
-            .touching()
-            .chain(self.border.touching())
-            .map(|touch| {
-                let (i, j) = (touch.first as usize, touch.second as usize);
-                (scene.radius[i] + scene.radius[j] - touch.distance, i, j)
-            })
+        let lists = [&self.pairs, &self.border];
+        let bodies = lists.into_iter().flat_map(|list| list.contacts.bodies());
+        bodies.map(|[i, j]| {
+            let (i, j) = (*i as usize, *j as usize);
+            let distance = scene.position[i].distance(scene.position[j]);
+            (scene.radius[i] + scene.radius[j] - distance, i, j)
+        })
     }
 
     /// The walls in contact, with their overlaps.
@@ -264,9 +263,10 @@ impl<L: ContactLaw> Block<L> {
         &self,
         scene: &Scene<'_, C, L>,
     ) -> impl Iterator<Item = (f64, usize, u32)> {
-        self.walls.touching().map(|touch| {
-            let slot = touch.first as usize;
-            (scene.radius[slot] - touch.distance, slot, touch.second)
+        self.walls.contacts.bodies().iter().map(|[slot, wall]| {
+            let slot = *slot as usize;
+            let distance = scene.wall_point(*wall, scene.position[slot]).distance;
+            (scene.radius[slot] - distance, slot, *wall)
         })
     }
 
@@ -312,89 +312,57 @@ fn add_axial<const PLANAR: bool>(sum: &mut DVec3, vector: DVec3) {
     sum.z += vector.z;
 }
 
-/// Has the law answer a chunk of touching pairs from number `from` on. Returns where the next begins.
+/// Runs of at most [`CHUNK`] contacts, one after the other.
+fn runs(contacts: usize) -> impl Iterator<Item = Range<usize>> {
+    let starts = (0..contacts).step_by(CHUNK);
+    starts.map(move |start| start..contacts.min(start + CHUNK))
+}
+
+/// Has the law answer a run of touching pairs.
 #[inline(always)]
 fn answer_pairs<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
     scene: &Scene<'_, C, L>,
     list: &mut Candidates<L>,
     chunk: &mut Chunk<L>,
-    from: usize,
-) -> usize {
-    // Columns of one length, so that one comparison stands for all their bounds.
-    let count = scene.position.len();
-    let even = Scene {
-        velocity: &scene.velocity[..count],
-        spin: &scene.spin[..count],
-        radius: &scene.radius[..count],
-        species: &scene.species[..count],
-        ..*scene
-    };
-    let end = list.contacts.len().min(from + CHUNK);
-    chunk.clear();
-    for number in from..end {
-        let touch = list.touch(number);
-        let (i, j) = (touch.first as usize, touch.second as usize);
-        if i < count && j < count {
-            let memory = list.memory(touch.place, even.stamp);
-            chunk.push_pair::<PLANAR>(touch, &even.grain(i), &even.grain(j), memory);
-        }
-    }
-    let kind = |touch: &Touch| {
-        let first = even.species[touch.first as usize];
-        let second = even.species[touch.second as usize];
-        let own = list.prepared(touch.place);
-        even.coefficients.pair(first, second, own)
-    };
-    let only = even.coefficients.only_pair();
-    chunk.answer::<true, END>(even.law, only, kind, even.elapsed);
+    run: Range<usize>,
+) {
+    let bodies = &list.contacts.bodies()[run.clone()];
+    let places = &list.contacts.places()[run.clone()];
+    chunk.gather_pairs::<C, PLANAR>(scene, bodies);
+    chunk.recall(places.iter().map(|place| list.memory(*place, scene.stamp)));
+    let kinds = bodies.iter().zip(places).map(|([i, j], place)| {
+        let first = scene.species[*i as usize];
+        let second = scene.species[*j as usize];
+        let own = list.prepared(*place);
+        scene.coefficients.pair(first, second, own)
+    });
+    let only = scene.coefficients.only_pair();
+    chunk.answer::<true, END>(scene.law, only, kinds, scene.elapsed);
     if END {
-        keep(list, chunk, even.stamp);
+        list.keep(run, scene.stamp.wrapping_add(1), chunk.advanced());
     }
-    end
 }
 
-/// Has the law answer a chunk of touching walls from number `from` on, and notes who is behind one.
-/// Returns where the next begins.
+/// Has the law answer a run of touching walls.
 #[inline(always)]
 fn answer_walls<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
     scene: &Scene<'_, C, L>,
     list: &mut Candidates<L>,
     chunk: &mut Chunk<L>,
-    escaped: &mut Option<Place>,
-    from: usize,
-) -> usize {
-    let end = list.contacts.len().min(from + CHUNK);
-    chunk.clear();
-    for number in from..end {
-        let touch = list.touch(number);
-        let slot = touch.first as usize;
-        let grain = scene.grain(slot);
-        let room = scene.room_of_wall(touch.second);
-        let point = scene.wall_point(touch.second, grain.position);
-        if point.distance < 0.0 {
-            let partner = Partner::Wall(touch.second - room.first_wall);
-            *escaped = Some(Place { slot, partner });
-        }
-        let memory = list.memory(touch.place, scene.stamp);
-        chunk.push_wall::<PLANAR>(touch, &grain, &point, room.motion.velocity, memory);
-    }
-    let kind = |touch: &Touch| {
-        let species = scene.species[touch.first as usize];
+    run: Range<usize>,
+) {
+    let bodies = &list.contacts.bodies()[run.clone()];
+    let places = &list.contacts.places()[run.clone()];
+    chunk.gather_walls::<C, PLANAR>(scene, bodies);
+    chunk.recall(places.iter().map(|place| list.memory(*place, scene.stamp)));
+    let kinds = bodies.iter().map(|[slot, _]| {
+        let species = scene.species[*slot as usize];
         *scene.coefficients.wall(species)
-    };
+    });
     let only = scene.coefficients.only_wall();
-    chunk.answer::<false, END>(scene.law, only, kind, scene.elapsed);
+    chunk.answer::<false, END>(scene.law, only, kinds, scene.elapsed);
     if END {
-        keep(list, chunk, scene.stamp);
-    }
-    end
-}
-
-/// Keeps what the contacts of `chunk` remember at the end of the step after step `stamp`.
-#[inline(always)]
-fn keep<L: ContactLaw>(list: &mut Candidates<L>, chunk: &Chunk<L>, stamp: u32) {
-    for (n, touch) in chunk.touches().iter().enumerate() {
-        list.keep(touch.place, stamp.wrapping_add(1), chunk.advanced(n));
+        list.keep(run, scene.stamp.wrapping_add(1), chunk.advanced());
     }
 }
 
@@ -404,11 +372,13 @@ fn report_pairs<C: Cavity, L: ContactLaw>(
     scene: &Scene<'_, C, L>,
     list: &Candidates<L>,
     chunk: &Chunk<L>,
+    run: Range<usize>,
     observer: &mut impl Observer,
 ) {
-    for (n, touch) in chunk.touches().iter().enumerate() {
-        let (slot, other) = (touch.first as usize, touch.second as usize);
-        let prepared = list.prepared(touch.place);
+    for (n, number) in run.enumerate() {
+        let Touch { bodies, place } = list.touch(number);
+        let (slot, other) = (bodies[0] as usize, bodies[1] as usize);
+        let prepared = list.prepared(place);
         let (first, second) = (scene.species[slot], scene.species[other]);
         let kind = scene.coefficients.pair(first, second, prepared);
         let (contact, force) = chunk.answered::<true>(scene.law, &kind, n, scene.elapsed);
@@ -418,7 +388,7 @@ fn report_pairs<C: Cavity, L: ContactLaw>(
             cavity: scene.rooms.partition_point(|room| room.slots.end <= slot),
             contact,
             force,
-            stored: scene.law.stored(&kind, &contact, &chunk.advanced(n)),
+            stored: scene.law.stored(&kind, &contact, &chunk.advanced()[n]),
             working_velocity: contact.velocity,
             working_spin: contact.spins[0] - contact.spins[1],
         });
@@ -429,11 +399,13 @@ fn report_pairs<C: Cavity, L: ContactLaw>(
 #[cold]
 fn report_walls<C: Cavity, L: ContactLaw>(
     scene: &Scene<'_, C, L>,
+    list: &Candidates<L>,
     chunk: &Chunk<L>,
+    run: Range<usize>,
     observer: &mut impl Observer,
 ) {
-    for (n, touch) in chunk.touches().iter().enumerate() {
-        let (slot, wall) = (touch.first as usize, touch.second);
+    for (n, [slot, wall]) in list.contacts.bodies()[run].iter().enumerate() {
+        let (slot, wall) = (*slot as usize, *wall);
         let kind = scene.coefficients.wall(scene.species[slot]);
         let (contact, force) = chunk.answered::<false>(scene.law, kind, n, scene.elapsed);
         observer.contact(&ContactEvent {
@@ -442,7 +414,7 @@ fn report_walls<C: Cavity, L: ContactLaw>(
             cavity: scene.cavity_of_wall(wall),
             contact,
             force,
-            stored: scene.law.stored(kind, &contact, &chunk.advanced(n)),
+            stored: scene.law.stored(kind, &contact, &chunk.advanced()[n]),
             working_velocity: contact.velocity,
             working_spin: contact.spins[0],
         });

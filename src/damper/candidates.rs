@@ -3,6 +3,8 @@
 // Small functions of the innermost loop: the compiler must see the loop whole.
 #![allow(clippy::inline_always)]
 
+use std::ops::Range;
+
 use super::coefficients::Coefficients;
 use crate::law::{ContactLaw, LawError};
 
@@ -19,18 +21,12 @@ struct Candidate {
 }
 
 /// Two bodies in contact.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Touch {
-    /// Slot of the first body.
-    pub(crate) first: u32,
-    /// Slot of the second body, or number of the wall.
-    pub(crate) second: u32,
+    /// Slots of both, or slot and number of the wall.
+    pub(crate) bodies: [u32; 2],
     /// Place among the candidates.
     pub(crate) place: u32,
-    /// Distance of two centres in m, or of a centre from the wall.
-    pub(crate) distance: f64,
-    /// One over the distance of two centres, finite.
-    pub(crate) inverse: f64,
 }
 
 /// The memory of a contact, between two lists of candidates.
@@ -53,20 +49,26 @@ impl<M> Remembered<M> {
 #[derive(Debug, Clone)]
 pub(crate) struct Candidates<L: ContactLaw> {
     list: Vec<Candidate>,
-    memory: Vec<L::Memory>,
-    /// The step at whose end each candidate touched last.
-    touched: Vec<u32>,
+    /// One each, if contacts remember anything; else empty.
+    entries: Vec<Entry<L::Memory>>,
     /// One each, if the law has to be asked pair by pair; else empty.
     prepared: Vec<L::Coefficients>,
     pub(crate) contacts: Contacts,
 }
 
+/// What a candidate remembers.
+#[derive(Debug, Clone, Copy)]
+struct Entry<M> {
+    /// The step at whose end it touched last.
+    touched: u32,
+    memory: M,
+}
+
 /// Which candidates are in contact: columns of which the first `count` entries are in use.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Contacts {
+    bodies: Vec<[u32; 2]>,
     places: Vec<u32>,
-    distance: Vec<f64>,
-    inverse: Vec<f64>,
     count: usize,
 }
 
@@ -75,6 +77,18 @@ impl Contacts {
     #[inline(always)]
     pub(crate) const fn len(&self) -> usize {
         self.count
+    }
+
+    /// The bodies of all contacts.
+    #[inline(always)]
+    pub(crate) fn bodies(&self) -> &[[u32; 2]] {
+        &self.bodies[..self.count]
+    }
+
+    /// Their places among the candidates.
+    #[inline(always)]
+    pub(crate) fn places(&self) -> &[u32] {
+        &self.places[..self.count]
     }
 }
 
@@ -88,8 +102,7 @@ impl<L: ContactLaw> Default for Candidates<L> {
     fn default() -> Self {
         Self {
             list: Vec::new(),
-            memory: Vec::new(),
-            touched: Vec::new(),
+            entries: Vec::new(),
             prepared: Vec::new(),
             contacts: Contacts::default(),
         }
@@ -113,12 +126,12 @@ impl<L: ContactLaw> Candidates<L> {
         if !Self::REMEMBERS {
             return;
         }
-        let touched = self.list.iter().zip(&self.touched).zip(&self.memory);
-        let touched = touched.filter(|((_, touched), _)| **touched == stamp);
-        remembered.extend(touched.map(|((candidate, _), memory)| Remembered {
+        let all = self.list.iter().zip(&self.entries);
+        let touched = all.filter(|(_, entry)| entry.touched == stamp);
+        remembered.extend(touched.map(|(candidate, entry)| Remembered {
             first: candidate.first,
             second: candidate.second,
-            memory: *memory,
+            memory: entry.memory,
         }));
     }
 
@@ -142,26 +155,26 @@ impl<L: ContactLaw> Candidates<L> {
         let count = self.list.len();
         // One place more, because entries are written before it is known whether they count.
         let room = self.list.capacity() + 1;
-        let contacts = &mut self.contacts;
-        fit(&mut contacts.places, count + 1, room, 0);
-        fit(&mut contacts.distance, count + 1, room, 0.0);
-        fit(&mut contacts.inverse, count + 1, room, 0.0);
+        fit(&mut self.contacts.bodies, count + 1, room, [0; 2]);
+        fit(&mut self.contacts.places, count + 1, room, 0);
         if !Self::REMEMBERS {
             return;
         }
-        self.memory.clear();
-        self.memory.reserve(room);
-        self.touched.clear();
-        self.touched.reserve(room);
-        self.memory.resize(count, L::Memory::default());
-        self.touched.resize(count, stamp.wrapping_sub(1));
+        let new = Entry {
+            touched: stamp.wrapping_sub(1),
+            memory: L::Memory::default(),
+        };
+        self.entries.clear();
+        fit(&mut self.entries, count, room, new);
         let mut remembered = remembered.iter().peekable();
         for (place, candidate) in self.list.iter().enumerate() {
             let key = (candidate.first, candidate.second);
             while remembered.next_if(|contact| contact.key() < key).is_some() {}
             if let Some(contact) = remembered.next_if(|contact| contact.key() == key) {
-                self.memory[place] = contact.memory;
-                self.touched[place] = stamp;
+                self.entries[place] = Entry {
+                    touched: stamp,
+                    memory: contact.memory,
+                };
             }
         }
     }
@@ -193,54 +206,30 @@ impl<L: ContactLaw> Candidates<L> {
     /// Lists the candidates in contact, by their `measure`.
     #[inline(always)]
     pub(crate) fn find(&mut self, measure: impl Fn(usize, u32) -> f64) {
-        let Contacts {
-            places, distance, ..
-        } = &mut self.contacts;
-        let distance = &mut distance[..places.len()];
+        let Contacts { bodies, places, .. } = &mut self.contacts;
+        let places = &mut places[..bodies.len()];
         let mut count = 0;
         for (place, candidate) in (0..).zip(&self.list) {
-            let measured = measure(candidate.first as usize, candidate.second);
+            let Candidate {
+                first,
+                second,
+                limit,
+            } = *candidate;
             // Written before it is known whether it counts: no branch to mispredict.
+            bodies[count] = [first, second];
             places[count] = place;
-            distance[count] = measured;
-            count += usize::from(measured < candidate.limit);
+            count += usize::from(measure(first as usize, second) < limit);
         }
         self.contacts.count = count;
-    }
-
-    /// Turns squared distances into distances and their inverses. Of its own, so that the compiler
-    /// takes several roots at a time.
-    pub(crate) fn take_roots(&mut self) {
-        let Contacts {
-            distance,
-            inverse,
-            count,
-            ..
-        } = &mut self.contacts;
-        for (distance, inverse) in distance[..*count].iter_mut().zip(&mut inverse[..*count]) {
-            let root = distance.sqrt();
-            *distance = root;
-            *inverse = 1.0 / (root + f64::MIN_POSITIVE);
-        }
     }
 
     /// The contact of a number.
     #[inline(always)]
     pub(crate) fn touch(&self, number: usize) -> Touch {
-        let place = self.contacts.places[number];
-        let candidate = self.list[place as usize];
         Touch {
-            first: candidate.first,
-            second: candidate.second,
-            place,
-            distance: self.contacts.distance[number],
-            inverse: self.contacts.inverse[number],
+            bodies: self.contacts.bodies[number],
+            place: self.contacts.places[number],
         }
-    }
-
-    /// The contacts.
-    pub(crate) fn touching(&self) -> impl Iterator<Item = Touch> {
-        (0..self.contacts.len()).map(|number| self.touch(number))
     }
 
     /// The law's own coefficients of a candidate, if it was asked pair by pair.
@@ -252,19 +241,25 @@ impl<L: ContactLaw> Candidates<L> {
     /// What a contact remembers from the end of step `stamp`: the default if it did not touch then.
     #[inline(always)]
     pub(crate) fn memory(&self, place: u32, stamp: u32) -> L::Memory {
-        if Self::REMEMBERS && self.touched[place as usize] == stamp {
-            self.memory[place as usize]
-        } else {
-            L::Memory::default()
+        if Self::REMEMBERS {
+            let entry = &self.entries[place as usize];
+            if entry.touched == stamp {
+                return entry.memory;
+            }
         }
+        L::Memory::default()
     }
 
-    /// Keeps what a contact remembers at the end of step `stamp`.
+    /// Keeps what the contacts of a run remember at the end of step `stamp`.
     #[inline(always)]
-    pub(crate) fn keep(&mut self, place: u32, stamp: u32, memory: L::Memory) {
+    pub(crate) fn keep(&mut self, run: Range<usize>, stamp: u32, memories: &[L::Memory]) {
         if Self::REMEMBERS {
-            self.memory[place as usize] = memory;
-            self.touched[place as usize] = stamp;
+            for (place, memory) in self.contacts.places[run].iter().zip(memories) {
+                self.entries[*place as usize] = Entry {
+                    touched: stamp,
+                    memory: *memory,
+                };
+            }
         }
     }
 
@@ -272,9 +267,9 @@ impl<L: ContactLaw> Candidates<L> {
     pub(crate) fn reserved_bytes(&self) -> usize {
         let contacts = &self.contacts;
         size_of::<Candidate>() * self.list.capacity()
-            + size_of::<L::Memory>() * self.memory.capacity()
+            + size_of::<Entry<L::Memory>>() * self.entries.capacity()
             + size_of::<L::Coefficients>() * self.prepared.capacity()
-            + size_of::<u32>() * (self.touched.capacity() + contacts.places.capacity())
-            + size_of::<f64>() * (contacts.distance.capacity() + contacts.inverse.capacity())
+            + size_of::<[u32; 2]>() * contacts.bodies.capacity()
+            + size_of::<u32>() * contacts.places.capacity()
     }
 }

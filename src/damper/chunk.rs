@@ -9,9 +9,8 @@
 
 use glam::{DMat3, DVec3};
 
-use super::candidates::Touch;
-use super::scene::Grain;
-use crate::cavity::WallPoint;
+use super::scene::Scene;
+use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce};
 use crate::law::ContactLaw;
 
@@ -73,7 +72,6 @@ impl Vectors {
 #[derive(Debug, Clone)]
 pub(crate) struct Chunk<L: ContactLaw> {
     count: usize,
-    touches: [Touch; CHUNK],
     /// From the second body to the first: of two spheres as far as their centres are apart (m), of a
     /// sphere and a wall the normal.
     towards: Vectors,
@@ -94,7 +92,6 @@ impl<L: ContactLaw> Default for Chunk<L> {
     fn default() -> Self {
         Self {
             count: 0,
-            touches: [Touch::default(); CHUNK],
             towards: Vectors::ZERO,
             velocity: Vectors::ZERO,
             spins: [Vectors::ZERO; 2],
@@ -110,64 +107,61 @@ impl<L: ContactLaw> Default for Chunk<L> {
 }
 
 impl<L: ContactLaw> Chunk<L> {
-    /// The contacts.
+    /// Takes over the pairs of `bodies`, at most [`CHUNK`] of them.
     #[inline(always)]
-    pub(crate) fn touches(&self) -> &[Touch] {
-        &self.touches[..self.count.min(CHUNK)]
-    }
-
-    #[inline(always)]
-    pub(crate) fn clear(&mut self) {
-        self.count = 0;
-        self.kinds.clear();
-    }
-
-    /// Adds the contact of two spheres. Of a full chunk the last contact is lost.
-    #[inline(always)]
-    pub(crate) fn push_pair<const PLANAR: bool>(
+    pub(crate) fn gather_pairs<C: Cavity, const PLANAR: bool>(
         &mut self,
-        touch: Touch,
-        first: &Grain,
-        second: &Grain,
-        memory: L::Memory,
+        scene: &Scene<'_, C, L>,
+        bodies: &[[u32; 2]],
     ) {
-        let n = self.count.min(CHUNK - 1);
-        self.count = n + 1;
-        self.touches[n] = touch;
-        let towards = first.position - second.position;
-        let velocity = first.velocity - second.velocity;
-        self.towards.set_polar::<PLANAR>(n, towards);
-        self.velocity.set_polar::<PLANAR>(n, velocity);
-        self.spins[0].set_axial::<PLANAR>(n, first.spin);
-        self.spins[1].set_axial::<PLANAR>(n, second.spin);
-        self.radii[0][n] = first.radius;
-        self.radii[1][n] = second.radius;
-        self.memory[n] = memory;
+        // Columns of one length, so that one comparison stands for all their bounds.
+        let position = scene.position;
+        let velocity = &scene.velocity[..position.len()];
+        let spin = &scene.spin[..position.len()];
+        let radius = &scene.radius[..position.len()];
+        self.count = bodies.len().min(CHUNK);
+        for (n, [i, j]) in bodies[..self.count].iter().enumerate() {
+            let (n, i, j) = (n % CHUNK, *i as usize, *j as usize);
+            let towards = position[i] - position[j];
+            self.towards.set_polar::<PLANAR>(n, towards);
+            let velocity = velocity[i] - velocity[j];
+            self.velocity.set_polar::<PLANAR>(n, velocity);
+            self.spins[0].set_axial::<PLANAR>(n, spin[i]);
+            self.spins[1].set_axial::<PLANAR>(n, spin[j]);
+            self.radii[0][n] = radius[i];
+            self.radii[1][n] = radius[j];
+        }
     }
 
-    /// Adds the contact of a sphere with a wall that stands to it as `wall`, in a container that
-    /// moves with velocity `container`. Of a full chunk the last contact is lost.
+    /// Takes over the contacts with walls of `bodies`, at most [`CHUNK`] of them.
     #[inline(always)]
-    pub(crate) fn push_wall<const PLANAR: bool>(
+    pub(crate) fn gather_walls<C: Cavity, const PLANAR: bool>(
         &mut self,
-        touch: Touch,
-        grain: &Grain,
-        wall: &WallPoint,
-        container: DVec3,
-        memory: L::Memory,
+        scene: &Scene<'_, C, L>,
+        bodies: &[[u32; 2]],
     ) {
-        let n = self.count.min(CHUNK - 1);
-        self.count = n + 1;
-        self.touches[n] = touch;
-        self.towards.set_polar::<PLANAR>(n, wall.normal);
-        let velocity = grain.velocity - container;
-        self.velocity.set_polar::<PLANAR>(n, velocity);
-        self.spins[0].set_axial::<PLANAR>(n, grain.spin);
-        self.spins[1].set_axial::<PLANAR>(n, DVec3::ZERO);
-        self.radii[0][n] = grain.radius;
-        self.radii[1][n] = 0.0;
-        self.overlap[n] = grain.radius - wall.distance;
-        self.memory[n] = memory;
+        self.count = bodies.len().min(CHUNK);
+        for (n, [slot, wall]) in bodies[..self.count].iter().enumerate() {
+            let grain = scene.grain(*slot as usize);
+            let point = scene.wall_point(*wall, grain.position);
+            let container = scene.room_of_wall(*wall).motion.velocity;
+            self.towards.set_polar::<PLANAR>(n, point.normal);
+            let velocity = grain.velocity - container;
+            self.velocity.set_polar::<PLANAR>(n, velocity);
+            self.spins[0].set_axial::<PLANAR>(n, grain.spin);
+            self.spins[1].set_axial::<PLANAR>(n, DVec3::ZERO);
+            self.radii[0][n] = grain.radius;
+            self.radii[1][n] = 0.0;
+            self.overlap[n] = grain.radius - point.distance;
+        }
+    }
+
+    /// Takes over what the contacts remember.
+    #[inline(always)]
+    pub(crate) fn recall(&mut self, memories: impl Iterator<Item = L::Memory>) {
+        for (own, memory) in self.memory.iter_mut().zip(memories) {
+            *own = memory;
+        }
     }
 
     /// The contact of a number, `elapsed` seconds after its memory was advanced. Coincident centres
@@ -197,14 +191,14 @@ impl<L: ContactLaw> Chunk<L> {
         }
     }
 
-    /// Has `law` answer the contacts, with the coefficients that `kind` finds for them if they have
-    /// not all the `only` ones. With `END` their memory advances.
+    /// Has `law` answer the contacts, with the `only` coefficients that there are, or else with those
+    /// of each contact in turn. With `END` their memory advances.
     #[inline(always)]
     pub(crate) fn answer<const PAIRS: bool, const END: bool>(
         &mut self,
         law: &L,
         only: Option<&L::Coefficients>,
-        kind: impl FnMut(&Touch) -> L::Coefficients,
+        kinds: impl Iterator<Item = L::Coefficients>,
         elapsed: f64,
     ) {
         if let Some(only) = only {
@@ -214,8 +208,8 @@ impl<L: ContactLaw> Chunk<L> {
                 self.answer_alike::<PAIRS, END, false>(law, only, elapsed);
             }
         } else {
-            let count = self.count.min(CHUNK);
-            self.kinds.extend(self.touches[..count].iter().map(kind));
+            self.kinds.clear();
+            self.kinds.extend(kinds);
             self.answer_mixed::<PAIRS, END>(law, elapsed);
         }
     }
@@ -281,10 +275,10 @@ impl<L: ContactLaw> Chunk<L> {
         [self.torques[0].get(n), self.torques[1].get(n)]
     }
 
-    /// What a contact remembers at the end of the step.
+    /// What the contacts remember at the end of the step.
     #[inline(always)]
-    pub(crate) const fn advanced(&self, n: usize) -> L::Memory {
-        self.advanced[n]
+    pub(crate) const fn advanced(&self) -> &[L::Memory; CHUNK] {
+        &self.advanced
     }
 
     /// A contact and the force that the law gave it, with coefficients `kind`.
@@ -297,6 +291,12 @@ impl<L: ContactLaw> Chunk<L> {
     ) -> (Contact, ContactForce) {
         let contact = self.contact::<PAIRS>(n, elapsed);
         (contact, law.force(kind, &contact, &self.memory[n]))
+    }
+
+    /// The overlap of a contact in m.
+    #[inline(always)]
+    pub(crate) const fn overlap(&self, n: usize) -> f64 {
+        self.overlap[n]
     }
 
     /// The largest overlap in m.

@@ -108,10 +108,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let count = list.contacts.len();
                 for turn in 0..count {
                     let touch = list.touch(if ascending { turn } else { count - 1 - turn });
-                    let (i, j) = (touch.first as usize, touch.second as usize);
+                    let [i, j] = touch.bodies.map(|slot| slot as usize);
                     let working = |velocity: &[DVec3], spin: &[DVec3]| {
                         let struck = |slot| struck(&scene, slot, velocity, spin);
-                        PairContact::new(&struck(i), &struck(j), &touch, time_step)
+                        PairContact::new(&struck(i), &struck(j), time_step)
                     };
                     let mut pair = if sequential {
                         working(velocity, spin)
@@ -166,7 +166,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         for block in &mut self.blocks {
             for number in 0..block.walls.contacts.len() {
                 let touch = block.walls.touch(number);
-                let (slot, wall) = (touch.first as usize, touch.second);
+                let (slot, wall) = (touch.bodies[0] as usize, touch.bodies[1]);
                 let cavity = scene.cavity_of_wall(wall);
                 let room = &self.world.rooms[cavity];
                 let point = scene.wall_point(wall, scene.position[slot]);
@@ -239,29 +239,28 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             for list in [&mut block.pairs, &mut block.border] {
                 for number in 0..list.contacts.len() {
                     let touch = list.touch(number);
-                    let (i, j) = (touch.first as usize, touch.second as usize);
-                    let pair = PairContact::new(&struck(i), &struck(j), &touch, time_step);
+                    let [i, j] = touch.bodies.map(|slot| slot as usize);
+                    let pair = PairContact::new(&struck(i), &struck(j), time_step);
                     let own = list.prepared(touch.place);
                     let kinds = (particles.species[i], particles.species[j]);
                     let kind = scene.coefficients.pair(kinds.0, kinds.1, own);
                     let memory = list.memory(touch.place, scene.stamp);
                     let memory = scene.law.advance(&kind, &pair.contact, &memory);
-                    list.keep(touch.place, next, memory);
+                    list.keep(number..number + 1, next, &[memory]);
                 }
             }
             let walls = &mut block.walls;
             for number in 0..walls.contacts.len() {
                 let touch = walls.touch(number);
-                let grain = struck(touch.first as usize);
-                let point = scene.wall_point(touch.second, grain.position);
-                let container = scene.room_of_wall(touch.second).motion.velocity;
+                let (slot, wall) = (touch.bodies[0] as usize, touch.bodies[1]);
+                let grain = struck(slot);
+                let point = scene.wall_point(wall, grain.position);
+                let container = scene.room_of_wall(wall).motion.velocity;
                 let contact = wall_contact(&grain, &point, container, time_step);
-                let kind = scene
-                    .coefficients
-                    .wall(particles.species[touch.first as usize]);
+                let kind = scene.coefficients.wall(particles.species[slot]);
                 let memory = walls.memory(touch.place, scene.stamp);
                 let memory = scene.law.advance(kind, &contact, &memory);
-                walls.keep(touch.place, next, memory);
+                walls.keep(number..number + 1, next, &[memory]);
             }
         }
     }

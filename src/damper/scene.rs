@@ -7,7 +7,6 @@ use std::ops::Range;
 
 use glam::{DMat3, DVec3};
 
-use super::candidates::Touch;
 use super::coefficients::Coefficients;
 use super::particles::Particles;
 use crate::cavity::{Cavity, WallPoint};
@@ -108,17 +107,19 @@ pub(crate) struct PairContact {
 }
 
 impl PairContact {
-    /// The contact of two particles that `touch`, `elapsed` seconds after its memory was advanced.
-    /// Coincident centres have no normal and feel no force.
+    /// The contact of two particles, `elapsed` seconds after its memory was advanced. Coincident
+    /// centres have no normal and feel no force.
     #[inline(always)]
-    pub(crate) fn new(first: &Grain, second: &Grain, touch: &Touch, elapsed: f64) -> Self {
-        let normal = (first.position - second.position) * touch.inverse;
+    pub(crate) fn new(first: &Grain, second: &Grain, elapsed: f64) -> Self {
+        let towards = first.position - second.position;
+        let distance = towards.length();
+        let normal = towards * (1.0 / (distance + f64::MIN_POSITIVE));
         let turning = first.spin * first.radius + second.spin * second.radius;
         let velocity = first.velocity - second.velocity - turning.cross(normal);
         Self {
             contact: Contact {
                 normal,
-                overlap: first.radius + second.radius - touch.distance,
+                overlap: first.radius + second.radius - distance,
                 velocity,
                 velocity_ahead: velocity,
                 spins: [first.spin, second.spin],
