@@ -29,6 +29,7 @@ mod scene;
 mod setup;
 mod snapshot;
 mod step;
+pub(crate) mod vectors;
 mod view;
 
 pub use builder::Builder;
@@ -254,12 +255,11 @@ where
         (0..self.engine.world.rooms.len())
             .filter_map(|cavity| Some((&self.engine.world.rooms[cavity], self.container(cavity)?)))
             .map(|(room, container)| {
-                self.engine.particles.position[room.slots.clone()]
-                    .iter()
-                    .filter(|position| {
-                        clearance(&room.cavity, **position - container.position) < 0.0
-                    })
-                    .count()
+                let position = |slot| self.engine.particles.position.get(slot);
+                let outside = |slot: &usize| {
+                    clearance(&room.cavity, position(*slot) - container.position) < 0.0
+                };
+                room.slots.clone().filter(outside).count()
             })
             .sum()
     }

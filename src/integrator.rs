@@ -1,9 +1,5 @@
 //! Time integration.
 
-use std::ops::{Add, Mul, Sub};
-
-use glam::DVec3;
-
 use crate::damper::StepError;
 
 mod runge_kutta;
@@ -12,35 +8,28 @@ mod verlet;
 pub use runge_kutta::RungeKutta4;
 pub use verlet::VelocityVerlet;
 
-/// A coordinate that integrators can do arithmetic with: a vector, or a mount's scalar.
-pub trait Coordinate:
-    Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self>
-{
-}
-
-impl Coordinate for f64 {}
-impl Coordinate for DVec3 {}
-
 /// One group of coordinates: their values, rates and accelerations, in columns of equal length.
+/// Vectors are taken apart: all x, then all y, then all z. Where a bed stays in a plane, what is
+/// always zero is left out.
 #[derive(Debug)]
-pub struct Columns<'a, T> {
+pub struct Columns<'a> {
     /// Positions. Empty for coordinates of which only the rate matters (the spin of spheres).
-    pub position: &'a mut [T],
+    pub position: &'a mut [f64],
     /// Velocities.
-    pub velocity: &'a mut [T],
+    pub velocity: &'a mut [f64],
     /// Accelerations, as the last evaluation left them.
-    pub acceleration: &'a [T],
+    pub acceleration: &'a [f64],
 }
 
 /// Everything that moves.
 #[derive(Debug)]
 pub struct Motions<'a> {
     /// Centres of the particles, fixed frame: m, m/s, m/s^2.
-    pub translation: Columns<'a, DVec3>,
+    pub translation: Columns<'a>,
     /// Angular velocity (rad/s) and acceleration of the particles; no positions.
-    pub rotation: Columns<'a, DVec3>,
+    pub rotation: Columns<'a>,
     /// Coordinates of the mount.
-    pub mount: Columns<'a, f64>,
+    pub mount: Columns<'a>,
 }
 
 /// Which evaluation of a step is asked for.
@@ -81,17 +70,17 @@ pub trait System {
 ///
 /// Symplectic Euler, complete:
 /// ```
-/// use particle_damper::integrator::{Columns, Coordinate, Integrator, Motions, Stage, System};
+/// use particle_damper::integrator::{Columns, Integrator, Motions, Stage, System};
 /// use particle_damper::StepError;
 ///
 /// struct SymplecticEuler;
 ///
-/// fn push<T: Coordinate>(columns: Columns<'_, T>, dt: f64) {
+/// fn push(columns: Columns<'_>, dt: f64) {
 ///     for (v, a) in columns.velocity.iter_mut().zip(columns.acceleration) {
-///         *v = *v + *a * dt;
+///         *v += *a * dt;
 ///     }
 ///     for (x, v) in columns.position.iter_mut().zip(columns.velocity) {
-///         *x = *x + *v * dt;
+///         *x += *v * dt;
 ///     }
 /// }
 ///

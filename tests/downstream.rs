@@ -4,9 +4,7 @@ use std::f64::consts::PI;
 
 use particle_damper::cavity::{Cavity, Cuboid, Slot, WallPoint};
 use particle_damper::glam::{DMat3, DVec3, dvec3};
-use particle_damper::integrator::{
-    Columns, Coordinate, Integrator, Motions, Stage, System, VelocityVerlet,
-};
+use particle_damper::integrator::{Columns, Integrator, Motions, Stage, System, VelocityVerlet};
 use particle_damper::mount::{Motion, Mount, SingleDof};
 use particle_damper::{
     AllPairs, Bed, Bodies, Body, CellGrid, Contact, ContactEvent, ContactForce, ContactLaw, Damper,
@@ -109,15 +107,15 @@ impl ContactLaw for CundallStrack {
 #[derive(Debug, Clone, Copy)]
 struct Leapfrog;
 
-fn kick<T: Coordinate>(columns: &mut Columns<'_, T>, dt: f64) {
+fn kick(columns: &mut Columns<'_>, dt: f64) {
     for (v, a) in columns.velocity.iter_mut().zip(columns.acceleration) {
-        *v = *v + *a * dt;
+        *v += *a * dt;
     }
 }
 
-fn drift<T: Coordinate>(columns: &mut Columns<'_, T>, dt: f64) {
+fn drift(columns: &mut Columns<'_>, dt: f64) {
     for (x, v) in columns.position.iter_mut().zip(&*columns.velocity) {
-        *x = *x + *v * dt;
+        *x += *v * dt;
     }
 }
 

@@ -15,6 +15,7 @@ use super::Partner;
 use super::candidates::{Candidates, Remembered, Touch};
 use super::chunk::{CHUNK, Chunk};
 use super::scene::{Scene, WallLoad};
+use super::vectors::{Components, part, vector};
 use crate::cavity::Cavity;
 use crate::law::{ContactLaw, LawError};
 use crate::observer::{ContactEvent, Observer};
@@ -119,24 +120,36 @@ impl<L: ContactLaw> Block<L> {
     pub(crate) fn narrow<C: Cavity>(
         &mut self,
         scene: &Scene<'_, C, L>,
-        reference: &[DVec3],
+        reference: &Components<'_>,
     ) -> bool {
         let mut trusted = true;
         for room in scene.rooms {
             let own = room.slots_in(&self.slots);
+            let (now, then) = (part(&scene.position, own.clone()), part(reference, own));
             let limit = 0.25 * room.margin * room.margin;
-            let origin = room.motion.position;
-            let moved = scene.position[own.clone()].iter().zip(&reference[own]);
-            for (position, reference) in moved {
-                trusted &= (*position - origin - *reference).length_squared() <= limit;
+            trusted &= within(now, then, room.motion.position, limit);
+        }
+        let [x, y, z] = scene.position;
+        let y = &y[..x.len()];
+        for list in [&mut self.pairs, &mut self.border] {
+            let square = |i: usize, j: usize| {
+                let (x, y) = (x[i] - x[j], y[i] - y[j]);
+                x * x + y * y
+            };
+            if scene.planar {
+                list.find(|i, j| square(i, j as usize));
+            } else {
+                let z = &z[..x.len()];
+                list.find(|i, j| {
+                    let z = z[i] - z[j as usize];
+                    square(i, j as usize) + z * z
+                });
             }
         }
-        let position = scene.position;
-        for list in [&mut self.pairs, &mut self.border] {
-            list.find(|i, j| position[i].distance_squared(position[j as usize]));
-        }
-        self.walls
-            .find(|i, wall| scene.wall_point(wall, position[i]).distance);
+        self.walls.find(|i, wall| {
+            let position = vector(&scene.position, i);
+            scene.wall_point(wall, position).distance
+        });
         trusted
     }
 
@@ -152,32 +165,32 @@ impl<L: ContactLaw> Block<L> {
     pub(crate) fn evaluate<C: Cavity, O: Observer, const END: bool>(
         &mut self,
         scene: &Scene<'_, C, L>,
-        force: &mut [DVec3],
-        torque: &mut [DVec3],
+        mut force: [&mut [f64]; 3],
+        mut torque: [&mut [f64]; 3],
         observer: &mut O,
     ) {
-        force.fill(DVec3::ZERO);
-        torque.fill(DVec3::ZERO);
+        force.iter_mut().for_each(|component| component.fill(0.0));
+        torque.iter_mut().for_each(|component| component.fill(0.0));
         self.loads.fill(WallLoad::default());
         self.parcels.clear();
         self.forget();
         self.contacts = self.contacts_in_reach();
         if scene.planar {
-            self.evaluate_lists::<C, O, END, true>(scene, force, torque, observer);
+            self.evaluate_lists::<C, O, END, true>(scene, &mut force, &mut torque, observer);
         } else {
-            self.evaluate_lists::<C, O, END, false>(scene, force, torque, observer);
+            self.evaluate_lists::<C, O, END, false>(scene, &mut force, &mut torque, observer);
         }
     }
 
     fn evaluate_lists<C: Cavity, O: Observer, const END: bool, const PLANAR: bool>(
         &mut self,
         scene: &Scene<'_, C, L>,
-        force: &mut [DVec3],
-        torque: &mut [DVec3],
+        force: &mut [&mut [f64]; 3],
+        torque: &mut [&mut [f64]; 3],
         observer: &mut O,
     ) {
         let base = self.slots.start;
-        let torque = &mut torque[..force.len()];
+        let mut sums = Sums::<PLANAR>::new(force, torque);
         let chunk = &mut *self.chunk;
         let mut deepest = 0.0_f64;
         let list = &mut self.pairs;
@@ -187,10 +200,8 @@ impl<L: ContactLaw> Block<L> {
             for (n, [i, j]) in list.contacts.bodies()[run.clone()].iter().enumerate() {
                 let (n, i, j) = (n % CHUNK, *i as usize - base, *j as usize - base);
                 let (push, [first, second]) = (chunk.push(n), chunk.torques(n));
-                add_polar::<PLANAR>(&mut force[i], push);
-                add_axial::<PLANAR>(&mut torque[i], first);
-                add_polar::<PLANAR>(&mut force[j], -push);
-                add_axial::<PLANAR>(&mut torque[j], second);
+                sums.add(i, push, first);
+                sums.add(j, -push, second);
             }
             if END && observer.wants_contacts() {
                 report_pairs(scene, list, chunk, run, observer);
@@ -203,8 +214,7 @@ impl<L: ContactLaw> Block<L> {
             for (n, [i, j]) in list.contacts.bodies()[run.clone()].iter().enumerate() {
                 let (push, [first, second]) = (chunk.push(n), chunk.torques(n));
                 let i = *i as usize - base;
-                add_polar::<PLANAR>(&mut force[i], push);
-                add_axial::<PLANAR>(&mut torque[i], first);
+                sums.add(i, push, first);
                 self.parcels.push(Parcel {
                     slot: *j,
                     force: -push,
@@ -217,15 +227,14 @@ impl<L: ContactLaw> Block<L> {
         }
         let list = &mut self.walls;
         for run in runs(list.contacts.len()) {
-            answer_walls::<C, L, END, PLANAR>(scene, list, chunk, run.clone());
+            answer_walls::<C, L, END>(scene, list, chunk, run.clone());
             deepest = deepest.max(chunk.largest_overlap());
             for (n, [slot, wall]) in list.contacts.bodies()[run.clone()].iter().enumerate() {
                 let (push, [turn, _]) = (chunk.push(n), chunk.torques(n));
                 let slot = *slot as usize;
-                add_polar::<PLANAR>(&mut force[slot - base], push);
-                add_axial::<PLANAR>(&mut torque[slot - base], turn);
+                sums.add(slot - base, push, turn);
                 let room = scene.room_of_wall(*wall);
-                let place = scene.position[slot] - room.motion.position;
+                let place = vector(&scene.position, slot) - room.motion.position;
                 self.loads[*wall as usize].react(push, turn, place);
                 if chunk.overlap(n) > scene.radius[slot] {
                     let partner = Partner::Wall(wall - room.first_wall);
@@ -253,7 +262,7 @@ impl<L: ContactLaw> Block<L> {
         let bodies = lists.into_iter().flat_map(|list| list.contacts.bodies());
         bodies.map(|[i, j]| {
             let (i, j) = (*i as usize, *j as usize);
-            let distance = scene.position[i].distance(scene.position[j]);
+            let distance = vector(&scene.position, i).distance(vector(&scene.position, j));
             (scene.radius[i] + scene.radius[j] - distance, i, j)
         })
     }
@@ -265,7 +274,9 @@ impl<L: ContactLaw> Block<L> {
     ) -> impl Iterator<Item = (f64, usize, u32)> {
         self.walls.contacts.bodies().iter().map(|[slot, wall]| {
             let slot = *slot as usize;
-            let distance = scene.wall_point(*wall, scene.position[slot]).distance;
+            let distance = scene
+                .wall_point(*wall, vector(&scene.position, slot))
+                .distance;
             (scene.radius[slot] - distance, slot, *wall)
         })
     }
@@ -292,24 +303,63 @@ impl<L: ContactLaw> Block<L> {
     }
 }
 
-/// Adds to a vector whose z is zero if `PLANAR`.
-#[inline(always)]
-fn add_polar<const PLANAR: bool>(sum: &mut DVec3, vector: DVec3) {
-    sum.x += vector.x;
-    sum.y += vector.y;
-    if !PLANAR {
-        sum.z += vector.z;
+/// Where the forces and torques on the particles of a block are summed up. With `PLANAR` forces have
+/// no z, and torques nothing else.
+struct Sums<'a, const PLANAR: bool> {
+    force: [&'a mut [f64]; 3],
+    torque: [&'a mut [f64]; 3],
+}
+
+impl<'a, const PLANAR: bool> Sums<'a, PLANAR> {
+    fn new(force: &'a mut [&mut [f64]; 3], torque: &'a mut [&mut [f64]; 3]) -> Self {
+        // Columns of one length, so that one comparison stands for all their bounds.
+        let count = force[0].len();
+        let even = |column: &'a mut &mut [f64]| {
+            let end = count.min(column.len());
+            &mut column[..end]
+        };
+        Self {
+            force: force.each_mut().map(even),
+            torque: torque.each_mut().map(even),
+        }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, n: usize, force: DVec3, torque: DVec3) {
+        self.force[0][n] += force.x;
+        self.force[1][n] += force.y;
+        self.torque[2][n] += torque.z;
+        if !PLANAR {
+            self.force[2][n] += force.z;
+            self.torque[0][n] += torque.x;
+            self.torque[1][n] += torque.y;
+        }
     }
 }
 
-/// Adds to a vector whose x and y are zero if `PLANAR`.
-#[inline(always)]
-fn add_axial<const PLANAR: bool>(sum: &mut DVec3, vector: DVec3) {
-    if !PLANAR {
-        sum.x += vector.x;
-        sum.y += vector.y;
+/// Whether all points `now` are nearer to those `then`, seen from `origin`, than the root of `limit`.
+fn within(now: Components<'_>, then: Components<'_>, origin: DVec3, limit: f64) -> bool {
+    let [x, y, z] = now;
+    let count = x.len();
+    let moved = |n: usize, now: &[f64], then: &[f64], origin: f64| {
+        let moved = now[n] - origin - then[n];
+        moved * moved
+    };
+    let (y, then_x, then_y) = (&y[..count], &then[0][..count], &then[1][..count]);
+    let mut within = true;
+    if z.is_empty() {
+        for n in 0..count {
+            let square = moved(n, x, then_x, origin.x) + moved(n, y, then_y, origin.y);
+            within &= square <= limit;
+        }
+    } else {
+        let (z, then_z) = (&z[..count], &then[2][..count]);
+        for n in 0..count {
+            let square = moved(n, x, then_x, origin.x) + moved(n, y, then_y, origin.y);
+            within &= square + moved(n, z, then_z, origin.z) <= limit;
+        }
     }
-    sum.z += vector.z;
+    within
 }
 
 /// Runs of at most [`CHUNK`] contacts, one after the other.
@@ -345,7 +395,7 @@ fn answer_pairs<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
 
 /// Has the law answer a run of touching walls.
 #[inline(always)]
-fn answer_walls<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
+fn answer_walls<C: Cavity, L: ContactLaw, const END: bool>(
     scene: &Scene<'_, C, L>,
     list: &mut Candidates<L>,
     chunk: &mut Chunk<L>,
@@ -353,7 +403,7 @@ fn answer_walls<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
 ) {
     let bodies = &list.contacts.bodies()[run.clone()];
     let places = &list.contacts.places()[run.clone()];
-    chunk.gather_walls::<C, PLANAR>(scene, bodies);
+    chunk.gather_walls::<C>(scene, bodies);
     chunk.recall(places.iter().map(|place| list.memory(*place, scene.stamp)));
     let kinds = bodies.iter().map(|[slot, _]| {
         let species = scene.species[*slot as usize];

@@ -209,7 +209,8 @@ where
         self.check_counts()?;
         self.check_particles()?;
         let numbers = self.order_by_cavity();
-        let particles = Particles::new(&self.particles, numbers);
+        let planar = self.cavities.iter().all(Cavity::is_planar);
+        let particles = Particles::new(&self.particles, numbers, planar);
         let coefficients = Coefficients::new(&self.law, &particles.kinds, self.wall_material)?;
         let time_step = self.choose_time_step(coefficients.time_step_limit(&self.law)?)?;
         let smallest = smallest_radius(&particles.kinds);
@@ -443,10 +444,11 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             }
         }
         self.place_containers(0.0)?;
+        let local: Vec<DVec3> = self.particles.position.iter().collect();
         for (room, detector) in self.world.rooms.iter().zip(&mut self.detectors) {
             let slots = room.slots.clone();
             let bed = Bed::new(
-                &self.particles.position[slots.clone()],
+                &local[slots.clone()],
                 &self.particles.radius[slots],
                 room.cavity.bounds(),
             )
@@ -455,8 +457,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             detector.prepare(&bed)?;
         }
         for room in &self.world.rooms {
-            for position in &mut self.particles.position[room.slots.clone()] {
-                *position += room.motion.position;
+            for slot in room.slots.clone() {
+                let position = local[slot] + room.motion.position;
+                self.particles.position.set(slot, position);
             }
         }
         self.find_contacts(true)?;
@@ -486,7 +489,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let room = scene.room_of_wall(wall);
                 return Err(BuildError::OutsideCavity {
                     particle: self.particles.number[slot] as usize,
-                    position: self.particles.position[slot] - room.motion.position,
+                    position: self.particles.position.get(slot) - room.motion.position,
                     wall: wall - room.first_wall,
                     overlap,
                     limit,

@@ -21,13 +21,13 @@ type Column = [f64; CHUNK];
 
 /// A column of vectors.
 #[derive(Debug, Clone)]
-struct Vectors {
+struct Lanes {
     x: Column,
     y: Column,
     z: Column,
 }
 
-impl Vectors {
+impl Lanes {
     const ZERO: Self = Self {
         x: [0.0; CHUNK],
         y: [0.0; CHUNK],
@@ -45,26 +45,6 @@ impl Vectors {
     const fn get(&self, n: usize) -> DVec3 {
         DVec3::new(self.x[n], self.y[n], self.z[n])
     }
-
-    /// Sets a vector whose z is zero if `PLANAR`, and was never anything else.
-    #[inline(always)]
-    const fn set_polar<const PLANAR: bool>(&mut self, n: usize, vector: DVec3) {
-        self.x[n] = vector.x;
-        self.y[n] = vector.y;
-        if !PLANAR {
-            self.z[n] = vector.z;
-        }
-    }
-
-    /// Sets a vector whose x and y are zero if `PLANAR`, and were never anything else.
-    #[inline(always)]
-    const fn set_axial<const PLANAR: bool>(&mut self, n: usize, vector: DVec3) {
-        if !PLANAR {
-            self.x[n] = vector.x;
-            self.y[n] = vector.y;
-        }
-        self.z[n] = vector.z;
-    }
 }
 
 /// Up to [`CHUNK`] contacts, all of pairs or all with walls, and what the law answers. With `PLANAR`
@@ -74,34 +54,34 @@ pub(crate) struct Chunk<L: ContactLaw> {
     count: usize,
     /// From the second body to the first: of two spheres as far as their centres are apart (m), of a
     /// sphere and a wall the normal.
-    towards: Vectors,
+    towards: Lanes,
     /// Velocity of the first centre relative to the second body's, m/s.
-    velocity: Vectors,
-    spins: [Vectors; 2],
+    velocity: Lanes,
+    spins: [Lanes; 2],
     /// Zero for a wall.
     radii: [Column; 2],
     overlap: Column,
     kinds: Vec<L::Coefficients>,
     memory: [L::Memory; CHUNK],
     advanced: [L::Memory; CHUNK],
-    push: Vectors,
-    torques: [Vectors; 2],
+    push: Lanes,
+    torques: [Lanes; 2],
 }
 
 impl<L: ContactLaw> Default for Chunk<L> {
     fn default() -> Self {
         Self {
             count: 0,
-            towards: Vectors::ZERO,
-            velocity: Vectors::ZERO,
-            spins: [Vectors::ZERO; 2],
+            towards: Lanes::ZERO,
+            velocity: Lanes::ZERO,
+            spins: [Lanes::ZERO; 2],
             radii: [[0.0; CHUNK]; 2],
             overlap: [0.0; CHUNK],
             kinds: Vec::with_capacity(CHUNK),
             memory: [L::Memory::default(); CHUNK],
             advanced: [L::Memory::default(); CHUNK],
-            push: Vectors::ZERO,
-            torques: [Vectors::ZERO; 2],
+            push: Lanes::ZERO,
+            torques: [Lanes::ZERO; 2],
         }
     }
 }
@@ -114,42 +94,48 @@ impl<L: ContactLaw> Chunk<L> {
         scene: &Scene<'_, C, L>,
         bodies: &[[u32; 2]],
     ) {
+        let [x, y, z] = scene.position;
+        let [u, v, w] = scene.velocity;
+        let [turns_x, turns_y, turns_z] = scene.spin;
         // Columns of one length, so that one comparison stands for all their bounds.
-        let position = scene.position;
-        let velocity = &scene.velocity[..position.len()];
-        let spin = &scene.spin[..position.len()];
-        let radius = &scene.radius[..position.len()];
+        let count = x.len();
+        let (y, u, v) = (&y[..count], &u[..count], &v[..count]);
+        let (turns_z, radius) = (&turns_z[..count], &scene.radius[..count]);
         self.count = bodies.len().min(CHUNK);
         for (n, [i, j]) in bodies[..self.count].iter().enumerate() {
             let (n, i, j) = (n % CHUNK, *i as usize, *j as usize);
-            let towards = position[i] - position[j];
-            self.towards.set_polar::<PLANAR>(n, towards);
-            let velocity = velocity[i] - velocity[j];
-            self.velocity.set_polar::<PLANAR>(n, velocity);
-            self.spins[0].set_axial::<PLANAR>(n, spin[i]);
-            self.spins[1].set_axial::<PLANAR>(n, spin[j]);
+            self.towards.x[n] = x[i] - x[j];
+            self.towards.y[n] = y[i] - y[j];
+            self.velocity.x[n] = u[i] - u[j];
+            self.velocity.y[n] = v[i] - v[j];
+            self.spins[0].z[n] = turns_z[i];
+            self.spins[1].z[n] = turns_z[j];
             self.radii[0][n] = radius[i];
             self.radii[1][n] = radius[j];
+            if !PLANAR {
+                self.towards.z[n] = z[i] - z[j];
+                self.velocity.z[n] = w[i] - w[j];
+                self.spins[0].x[n] = turns_x[i];
+                self.spins[0].y[n] = turns_y[i];
+                self.spins[1].x[n] = turns_x[j];
+                self.spins[1].y[n] = turns_y[j];
+            }
         }
     }
 
     /// Takes over the contacts with walls of `bodies`, at most [`CHUNK`] of them.
     #[inline(always)]
-    pub(crate) fn gather_walls<C: Cavity, const PLANAR: bool>(
-        &mut self,
-        scene: &Scene<'_, C, L>,
-        bodies: &[[u32; 2]],
-    ) {
+    pub(crate) fn gather_walls<C: Cavity>(&mut self, scene: &Scene<'_, C, L>, bodies: &[[u32; 2]]) {
         self.count = bodies.len().min(CHUNK);
         for (n, [slot, wall]) in bodies[..self.count].iter().enumerate() {
             let grain = scene.grain(*slot as usize);
             let point = scene.wall_point(*wall, grain.position);
             let container = scene.room_of_wall(*wall).motion.velocity;
-            self.towards.set_polar::<PLANAR>(n, point.normal);
+            self.towards.set(n, point.normal);
             let velocity = grain.velocity - container;
-            self.velocity.set_polar::<PLANAR>(n, velocity);
-            self.spins[0].set_axial::<PLANAR>(n, grain.spin);
-            self.spins[1].set_axial::<PLANAR>(n, DVec3::ZERO);
+            self.velocity.set(n, velocity);
+            self.spins[0].set(n, grain.spin);
+            self.spins[1].set(n, DVec3::ZERO);
             self.radii[0][n] = grain.radius;
             self.radii[1][n] = 0.0;
             self.overlap[n] = grain.radius - point.distance;

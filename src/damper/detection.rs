@@ -28,10 +28,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Narrow phase. Returns whether the candidates could be trusted.
     fn narrow(&mut self) -> bool {
         let scene = self.world.scene(&self.particles, 0.0);
-        let reference = &self.scratch.reference;
+        let reference = self.scratch.reference.components();
         let mut trusted = true;
         for block in &mut self.blocks {
-            trusted &= block.narrow(&scene, reference);
+            trusted &= block.narrow(&scene, &reference);
         }
         trusted
     }
@@ -84,25 +84,23 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         scratch.rows.clear();
         scratch.rows.resize(count + 1, 0);
         scratch.partners.clear();
-        scratch.reference.clear();
+        scratch.local.clear();
         for (room, detector) in self.world.rooms.iter().zip(&mut self.detectors) {
             let slots = room.slots.clone();
             let origin = room.motion.position;
-            let positions = &self.particles.position[slots.clone()];
+            let positions = slots
+                .clone()
+                .map(|slot| self.particles.position.get(slot) - origin);
+            scratch.local.extend(positions);
             let bed = Bed::new(
-                positions,
+                &scratch.local[slots.clone()],
                 &self.particles.radius[slots.clone()],
                 room.cavity.bounds(),
             )
-            .from_origin(origin)
             .in_plane(room.cavity.is_planar())
             .with_margin(room.margin + self.world.reach);
             scratch.proposals.clear();
             detector.detect(&bed, &mut scratch.proposals);
-            scratch
-                .reference
-                .extend(positions.iter().map(|position| *position - origin));
-
             let proposals = scratch.proposals.as_slice();
             let rows = &mut scratch.rows[slots.start..];
             for &[first, second] in proposals {
@@ -131,6 +129,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             rows.copy_within(1..=slots.len(), 0);
             rows[slots.len()] = end;
         }
+        scratch.reference.clone_from(&self.particles.position);
+        scratch.reference.assign(scratch.local.iter().copied());
         Ok(())
     }
 
@@ -160,9 +160,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             }
             for room in &world.rooms {
                 let own = room.slots_in(&block.slots);
-                let grains = radius[own.clone()]
-                    .iter()
-                    .zip(&scratch.reference[own.clone()]);
+                let grains = radius[own.clone()].iter().zip(&scratch.local[own.clone()]);
                 for (slot, (radius, point)) in own.zip(grains) {
                     let reach = radius + world.reach;
                     for wall in 0..room.cavity.walls() {

@@ -8,6 +8,7 @@ use super::candidates::Remembered;
 use super::error::StepError;
 use super::particles::Particles;
 use super::scene::{Room, WallLoad, World};
+use super::vectors::Vectors;
 use crate::cavity::Cavity;
 use crate::detector::{Detector, Pairs};
 use crate::integrator::Stage;
@@ -50,7 +51,9 @@ pub(crate) struct Scratch<L: ContactLaw> {
     pub(crate) rows: Vec<u32>,
     pub(crate) partners: Vec<u32>,
     /// Where each particle was in its container's frame when the candidates were listed.
-    pub(crate) reference: Vec<DVec3>,
+    pub(crate) reference: Vectors,
+    /// The same while candidates are listed, for detectors.
+    pub(crate) local: Vec<DVec3>,
     pub(crate) memory: [Vec<Remembered<L::Memory>>; 2],
     /// Whether the candidates may still be used.
     pub(crate) listed: bool,
@@ -76,11 +79,12 @@ impl<L: ContactLaw> Scratch<L> {
 
     /// Memory in bytes that it has reserved.
     pub(crate) fn reserved_bytes(&self) -> usize {
-        let vectors = [&self.reference, &self.velocity, &self.spin];
+        let vectors = [&self.local, &self.velocity, &self.spin];
         let remembered = self.memory.iter().map(Vec::capacity).sum::<usize>();
         size_of::<DVec3>() * vectors.map(Vec::capacity).iter().sum::<usize>()
             + size_of::<u32>() * (self.rows.capacity() + self.partners.capacity())
             + size_of::<Remembered<L::Memory>>() * remembered
+            + self.reference.reserved_bytes()
             + self.proposals.reserved_bytes()
     }
 }
@@ -91,7 +95,8 @@ impl<L: ContactLaw> Default for Scratch<L> {
             proposals: Pairs::default(),
             rows: Vec::new(),
             partners: Vec::new(),
-            reference: Vec::new(),
+            reference: Vectors::default(),
+            local: Vec::new(),
             memory: [Vec::new(), Vec::new()],
             listed: false,
             velocity: Vec::new(),
@@ -177,8 +182,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     fn not_finite(&self, slot: usize) -> StepError {
         StepError::NotFinite {
             particle: self.particles.number[slot] as usize,
-            position: self.particles.position[slot],
-            acceleration: self.particles.acceleration[slot],
+            position: self.particles.position.get(slot),
+            acceleration: self.particles.acceleration.get(slot),
         }
     }
 
@@ -192,27 +197,30 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let mut force = std::mem::take(&mut self.particles.acceleration);
         let mut torque = std::mem::take(&mut self.particles.angular_acceleration);
         let scene = self.world.scene(&self.particles, elapsed);
+        let mut rests = [force.components_mut(), torque.components_mut()];
         for block in &mut self.blocks {
-            let slots = block.slots.clone();
-            let (force, torque) = (&mut force[slots.clone()], &mut torque[slots]);
+            let [force, torque] = rests
+                .each_mut()
+                .map(|rest| split_off(rest, block.slots.len()));
             block.evaluate::<C, O, END>(&scene, force, torque, observer);
         }
-        for block in &self.blocks {
-            for parcel in &block.parcels {
-                force[parcel.slot as usize] += parcel.force;
-                torque[parcel.slot as usize] += parcel.torque;
+        for parcel in self.blocks.iter().flat_map(|block| &block.parcels) {
+            let slot = parcel.slot as usize;
+            force.set(slot, force.get(slot) + parcel.force);
+            torque.set(slot, torque.get(slot) + parcel.torque);
+        }
+        let gravity = self.gravity.to_array();
+        for (component, gravity) in force.components_mut().into_iter().zip(gravity) {
+            for (force, inverse) in component.iter_mut().zip(&self.particles.inverse_mass) {
+                *force = *force * *inverse + gravity;
             }
         }
-        // Sums of anything that is not finite are not finite.
-        let mut sum = DVec3::ZERO;
-        for (force, inverse) in force.iter_mut().zip(&self.particles.inverse_mass) {
-            *force = *force * *inverse + self.gravity;
-            sum += *force;
+        for component in torque.components_mut() {
+            for (torque, inverse) in component.iter_mut().zip(&self.particles.inverse_inertia) {
+                *torque *= *inverse;
+            }
         }
-        for (torque, inverse) in torque.iter_mut().zip(&self.particles.inverse_inertia) {
-            *torque *= *inverse;
-            sum += *torque;
-        }
+        let finite = force.is_finite() && torque.is_finite();
         self.particles.acceleration = force;
         self.particles.angular_acceleration = torque;
 
@@ -222,7 +230,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 total.add(load);
             }
         }
-        if !sum.is_finite() {
+        if !finite {
             self.check_accelerations()?;
         }
         self.check_overlaps()
@@ -257,7 +265,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 super::Partner::Wall(wall) => wall,
                 super::Partner::Particle(_) => 0,
             },
-            position: self.particles.position[slot] - room.motion.position,
+            position: self.particles.position.get(slot) - room.motion.position,
         }
     }
 
@@ -317,4 +325,12 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         self.accelerate_mount(time);
         Ok(())
     }
+}
+
+/// Takes the first `count` of each component off `rest`.
+fn split_off<'a>(rest: &mut [&'a mut [f64]; 3], count: usize) -> [&'a mut [f64]; 3] {
+    rest.each_mut().map(|component| {
+        let end = count.min(component.len());
+        component.split_off_mut(..end).unwrap_or_default()
+    })
 }

@@ -9,6 +9,7 @@ use super::engine::Engine;
 use super::error::StepError;
 use super::scene::{Grain, PairContact, Scene, WallLoad, wall_contact};
 use super::smallest_radius;
+use super::vectors::vector;
 use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce, Stored};
 use crate::detector::Detector;
@@ -71,8 +72,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let coordinates = &state.position[..degrees];
         let rates = &state.velocity[..degrees];
         let scratch = &mut self.scratch;
-        scratch.velocity.clone_from(&self.particles.velocity);
-        scratch.spin.clone_from(&self.particles.spin);
+        scratch.velocity.clear();
+        scratch.velocity.extend(self.particles.velocity.iter());
+        scratch.spin.clear();
+        scratch.spin.extend(self.particles.spin.iter());
 
         let ahead = rates
             .iter()
@@ -116,7 +119,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     let mut pair = if sequential {
                         working(velocity, spin)
                     } else {
-                        working(scene.velocity, scene.spin)
+                        PairContact::new(&scene.grain(i), &scene.grain(j), time_step)
                     };
                     let inverse_mass = DVec3::splat(particles.inverse_mass[j]);
                     pair.contact.mobility = DMat3::from_diagonal(inverse_mass);
@@ -169,7 +172,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let (slot, wall) = (touch.bodies[0] as usize, touch.bodies[1]);
                 let cavity = scene.cavity_of_wall(wall);
                 let room = &self.world.rooms[cavity];
-                let point = scene.wall_point(wall, scene.position[slot]);
+                let point = scene.wall_point(wall, vector(&scene.position, slot));
                 let working = |velocity: &[DVec3], spin: &[DVec3], rates: &[f64]| {
                     let coordinates = &self.mount_state.position[..degrees];
                     let container = self.mount.motion(self.time, coordinates, rates, cavity);
@@ -179,12 +182,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let mut contact = if sequential {
                     working(velocity, spin, rates)
                 } else {
-                    wall_contact(
-                        &struck(&scene, slot, scene.velocity, scene.spin),
-                        &point,
-                        room.motion.velocity,
-                        time_step,
-                    )
+                    wall_contact(&scene.grain(slot), &point, room.motion.velocity, time_step)
                 };
                 contact.velocity_ahead = contact.velocity + gravity - self.scratch.gain[cavity];
                 contact.mobility = self.mount.mobility(cavity);
@@ -209,7 +207,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 velocity[slot] += force * (time_step * particles.inverse_mass[slot]);
                 spin[slot] += torque * (time_step * particles.inverse_inertia[slot]);
                 self.mount.strike(cavity, -force * time_step, rates);
-                let place = particles.position[slot] - room.motion.position + arm;
+                let place = particles.position.get(slot) - room.motion.position + arm;
                 self.wall_loads[wall as usize].react(force, answer.couple, place);
                 if let Some(before) = before {
                     let after = working(velocity, spin, rates);
@@ -269,16 +267,13 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     fn hold(&mut self, time_step: f64) -> Result<(), StepError> {
         let (scratch, particles) = (&self.scratch, &mut self.particles);
         let rate = 1.0 / time_step;
-        let mut sum = DVec3::ZERO;
-        for (n, acceleration) in particles.acceleration.iter_mut().enumerate() {
-            *acceleration = (scratch.velocity[n] - particles.velocity[n]) * rate + self.gravity;
-            sum += *acceleration;
-        }
-        for (n, acceleration) in particles.angular_acceleration.iter_mut().enumerate() {
-            *acceleration = (scratch.spin[n] - particles.spin[n]) * rate;
-            sum += *acceleration;
-        }
-        if sum.is_finite() {
+        let struck = scratch.velocity.iter().zip(particles.velocity.iter());
+        let struck = struck.map(|(struck, before)| (struck - before) * rate + self.gravity);
+        particles.acceleration.assign(struck);
+        let turned = scratch.spin.iter().zip(particles.spin.iter());
+        let turned = turned.map(|(turned, before)| (turned - before) * rate);
+        particles.angular_acceleration.assign(turned);
+        if particles.acceleration.is_finite() && particles.angular_acceleration.is_finite() {
             Ok(())
         } else {
             self.check_accelerations()

@@ -3,8 +3,7 @@
 //! A particle keeps the number it was given; where it stands in the columns is its *slot*, which a
 //! spatial sort may change.
 
-use glam::DVec3;
-
+use super::vectors::{Axes, Vectors};
 use crate::contact::Body;
 use crate::particle::Particle;
 
@@ -12,15 +11,15 @@ use crate::particle::Particle;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Particles {
     /// Centres in the fixed frame, m.
-    pub(crate) position: Vec<DVec3>,
+    pub(crate) position: Vectors,
     /// m/s.
-    pub(crate) velocity: Vec<DVec3>,
+    pub(crate) velocity: Vectors,
     /// rad/s.
-    pub(crate) spin: Vec<DVec3>,
+    pub(crate) spin: Vectors,
     /// m/s^2.
-    pub(crate) acceleration: Vec<DVec3>,
+    pub(crate) acceleration: Vectors,
     /// rad/s^2.
-    pub(crate) angular_acceleration: Vec<DVec3>,
+    pub(crate) angular_acceleration: Vectors,
     /// m.
     pub(crate) radius: Vec<f64>,
     /// 1/kg.
@@ -39,8 +38,20 @@ pub(crate) struct Particles {
 
 impl Particles {
     /// Columns of `particles`, which the caller has ordered by cavity; `number` are their numbers.
-    pub(crate) fn new(particles: &[Particle], number: Vec<u32>) -> Self {
+    /// With `planar` all of them stay in the plane z = 0.
+    pub(crate) fn new(particles: &[Particle], number: Vec<u32>, planar: bool) -> Self {
+        let count = particles.len();
+        let (moving, turning) = if planar {
+            (Axes::Plane, Axes::Normal)
+        } else {
+            (Axes::Space, Axes::Space)
+        };
         let mut columns = Self {
+            position: Vectors::zeros(moving, count),
+            velocity: Vectors::zeros(moving, count),
+            spin: Vectors::zeros(turning, count),
+            acceleration: Vectors::zeros(moving, count),
+            angular_acceleration: Vectors::zeros(turning, count),
             number,
             slot: vec![0; particles.len()],
             ..Self::default()
@@ -60,16 +71,18 @@ impl Particles {
                 columns.kinds.push(body);
                 columns.kinds.len() as u32 - 1
             });
-            columns.position.push(particle.position);
-            columns.velocity.push(particle.velocity);
-            columns.spin.push(particle.spin);
             columns.radius.push(particle.radius);
             columns.inverse_mass.push(1.0 / particle.mass);
             columns.inverse_inertia.push(1.0 / particle.inertia());
             columns.species.push(species);
         }
-        columns.acceleration = vec![DVec3::ZERO; particles.len()];
-        columns.angular_acceleration = vec![DVec3::ZERO; particles.len()];
+        columns
+            .position
+            .assign(particles.iter().map(|own| own.position));
+        columns
+            .velocity
+            .assign(particles.iter().map(|own| own.velocity));
+        columns.spin.assign(particles.iter().map(|own| own.spin));
         columns
     }
 
@@ -108,7 +121,7 @@ impl Particles {
         ];
         let scalars = [&self.radius, &self.inverse_mass, &self.inverse_inertia];
         let numbers = [&self.species, &self.number, &self.slot];
-        size_of::<DVec3>() * vectors.map(Vec::capacity).iter().sum::<usize>()
+        vectors.map(Vectors::reserved_bytes).iter().sum::<usize>()
             + size_of::<f64>() * scalars.map(Vec::capacity).iter().sum::<usize>()
             + size_of::<u32>() * numbers.map(Vec::capacity).iter().sum::<usize>()
     }
@@ -121,9 +134,9 @@ impl Particles {
             mass: body.mass,
             material: body.material,
             cavity,
-            position: self.position[slot],
-            velocity: self.velocity[slot],
-            spin: self.spin[slot],
+            position: self.position.get(slot),
+            velocity: self.velocity.get(slot),
+            spin: self.spin.get(slot),
         }
     }
 }

@@ -9,6 +9,7 @@ use glam::{DMat3, DVec3};
 
 use super::coefficients::Coefficients;
 use super::particles::Particles;
+use super::vectors::{Components, vector};
 use crate::cavity::{Cavity, WallPoint};
 use crate::contact::{Contact, ContactForce};
 use crate::law::ContactLaw;
@@ -51,20 +52,28 @@ impl<C: Cavity, L: ContactLaw> World<C, L> {
             coefficients: &self.coefficients,
             rooms: &self.rooms,
             room_of_wall: &self.room_of_wall,
-            position: &particles.position,
-            velocity: &particles.velocity,
-            spin: &particles.spin,
+            position: particles.position.components(),
+            velocity: particles.velocity.components(),
+            spin: particles.spin.components(),
             radius: &particles.radius,
             species: &particles.species,
             number: &particles.number,
             elapsed,
             stamp: self.stamp,
-            planar: self.rooms.iter().all(|room| room.cavity.is_planar()),
+            planar: self.planar(),
         }
     }
 }
 
 impl<C, L: ContactLaw> World<C, L> {
+    /// Whether everything moves in the plane z = 0.
+    pub(crate) fn planar(&self) -> bool
+    where
+        C: Cavity,
+    {
+        self.rooms.iter().all(|room| room.cavity.is_planar())
+    }
+
     /// Number of the cavity whose particle is in `slot`.
     pub(crate) fn cavity_of(&self, slot: usize) -> usize {
         self.rooms.partition_point(|room| room.slots.end <= slot)
@@ -77,9 +86,9 @@ pub(crate) struct Scene<'a, C, L: ContactLaw> {
     pub(crate) coefficients: &'a Coefficients<L::Coefficients>,
     pub(crate) rooms: &'a [Room<C>],
     pub(crate) room_of_wall: &'a [u32],
-    pub(crate) position: &'a [DVec3],
-    pub(crate) velocity: &'a [DVec3],
-    pub(crate) spin: &'a [DVec3],
+    pub(crate) position: Components<'a>,
+    pub(crate) velocity: Components<'a>,
+    pub(crate) spin: Components<'a>,
     pub(crate) radius: &'a [f64],
     pub(crate) species: &'a [u32],
     pub(crate) number: &'a [u32],
@@ -177,9 +186,9 @@ impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
     #[inline(always)]
     pub(crate) fn grain(&self, slot: usize) -> Grain {
         Grain {
-            position: self.position[slot],
-            velocity: self.velocity[slot],
-            spin: self.spin[slot],
+            position: vector(&self.position, slot),
+            velocity: vector(&self.velocity, slot),
+            spin: vector(&self.spin, slot),
             radius: self.radius[slot],
         }
     }

@@ -238,11 +238,11 @@ where
             clock: self.clock,
             species: particles.species.clone(),
             number: particles.number.clone(),
-            position: particles.position.clone(),
-            velocity: particles.velocity.clone(),
-            spin: particles.spin.clone(),
-            acceleration: particles.acceleration.clone(),
-            angular_acceleration: particles.angular_acceleration.clone(),
+            position: particles.position.iter().collect(),
+            velocity: particles.velocity.iter().collect(),
+            spin: particles.spin.iter().collect(),
+            acceleration: particles.acceleration.iter().collect(),
+            angular_acceleration: particles.angular_acceleration.iter().collect(),
             mount: engine.mount_state.clone(),
             containers: engine.world.rooms.iter().map(|room| room.motion).collect(),
             wall_loads: engine.wall_loads.clone(),
@@ -266,13 +266,14 @@ where
         snapshot.check(engine, &self.setup)?;
         let particles = &mut engine.particles;
         particles.rearrange(&snapshot.number);
-        particles.position.clone_from(&snapshot.position);
-        particles.velocity.clone_from(&snapshot.velocity);
-        particles.spin.clone_from(&snapshot.spin);
-        particles.acceleration.clone_from(&snapshot.acceleration);
+        particles.position.assign(snapshot.position.iter().copied());
+        particles.velocity.assign(snapshot.velocity.iter().copied());
+        particles.spin.assign(snapshot.spin.iter().copied());
         particles
-            .angular_acceleration
-            .clone_from(&snapshot.angular_acceleration);
+            .acceleration
+            .assign(snapshot.acceleration.iter().copied());
+        let turning = snapshot.angular_acceleration.iter();
+        particles.angular_acceleration.assign(turning.copied());
         engine.mount_state.clone_from(&snapshot.mount);
         engine.wall_loads.clone_from(&snapshot.wall_loads);
         engine.loads.clone_from(&snapshot.loads);

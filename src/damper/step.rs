@@ -31,14 +31,14 @@ where
         let mount = &mut self.engine.mount_state;
         Motions {
             translation: Columns {
-                position: &mut particles.position,
-                velocity: &mut particles.velocity,
-                acceleration: &particles.acceleration,
+                position: particles.position.flat_mut(),
+                velocity: particles.velocity.flat_mut(),
+                acceleration: particles.acceleration.flat(),
             },
             rotation: Columns {
                 position: &mut [],
-                velocity: &mut particles.spin,
-                acceleration: &particles.angular_acceleration,
+                velocity: particles.spin.flat_mut(),
+                acceleration: particles.angular_acceleration.flat(),
             },
             mount: Columns {
                 position: &mut mount.position,

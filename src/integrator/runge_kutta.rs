@@ -1,6 +1,4 @@
-use glam::DVec3;
-
-use super::{Columns, Coordinate, Integrator, Motions, Stage, System};
+use super::{Columns, Integrator, Motions, Stage, System};
 use crate::damper::StepError;
 
 /// The classical Runge-Kutta method of fourth order (the paper's): four evaluations a step, the
@@ -11,44 +9,44 @@ use crate::damper::StepError;
 /// d^(1/2) damping, 5/4 with d^(1/4) damping.
 #[derive(Debug, Clone, Default)]
 pub struct RungeKutta4 {
-    translation: Tableau<DVec3>,
-    rotation: Tableau<DVec3>,
-    mount: Tableau<f64>,
+    translation: Tableau,
+    rotation: Tableau,
+    mount: Tableau,
 }
 
 /// Positions and velocities at the start of a step, and the weighted sums of the slopes.
 #[derive(Debug, Clone, Default)]
-struct Tableau<T> {
-    position: Weighted<T>,
-    velocity: Weighted<T>,
+struct Tableau {
+    position: Weighted,
+    velocity: Weighted,
 }
 
 /// A column at the start of a step, and the weighted sum of its slopes.
 #[derive(Debug, Clone, Default)]
-struct Weighted<T> {
-    start: Vec<T>,
-    sum: Vec<T>,
+struct Weighted {
+    start: Vec<f64>,
+    sum: Vec<f64>,
 }
 
-impl<T: Coordinate> Weighted<T> {
-    fn begin(&mut self, column: &[T]) {
+impl Weighted {
+    fn begin(&mut self, column: &[f64]) {
         self.start.clear();
         self.start.extend_from_slice(column);
         self.sum.clear();
-        self.sum.resize(column.len(), T::default());
+        self.sum.resize(column.len(), 0.0);
     }
 
     /// Adds `slope` with `weight`, and moves the column on by `reach` from the start along it.
-    fn stage(&mut self, column: &mut [T], slope: &[T], weight: f64, reach: f64) {
+    fn stage(&mut self, column: &mut [f64], slope: &[f64], weight: f64, reach: f64) {
         let kept = self.start.iter().zip(&mut self.sum);
         for ((value, slope), (start, sum)) in column.iter_mut().zip(slope).zip(kept) {
-            *sum = *sum + *slope * weight;
+            *sum += *slope * weight;
             *value = *start + *slope * reach;
         }
     }
 
     /// Adds the last `slope`, and moves the column from the start along the sum.
-    fn finish(&self, column: &mut [T], slope: &[T], weight: f64) {
+    fn finish(&self, column: &mut [f64], slope: &[f64], weight: f64) {
         let kept = self.start.iter().zip(&self.sum);
         for ((value, slope), (start, sum)) in column.iter_mut().zip(slope).zip(kept) {
             *value = *start + *sum + *slope * weight;
@@ -56,13 +54,13 @@ impl<T: Coordinate> Weighted<T> {
     }
 }
 
-impl<T: Coordinate> Tableau<T> {
-    fn begin(&mut self, columns: &Columns<'_, T>) {
+impl Tableau {
+    fn begin(&mut self, columns: &Columns<'_>) {
         self.position.begin(columns.position);
         self.velocity.begin(columns.velocity);
     }
 
-    fn stage(&mut self, columns: Columns<'_, T>, weight: f64, reach: f64) {
+    fn stage(&mut self, columns: Columns<'_>, weight: f64, reach: f64) {
         let Columns {
             position,
             velocity,
@@ -72,7 +70,7 @@ impl<T: Coordinate> Tableau<T> {
         self.velocity.stage(velocity, acceleration, weight, reach);
     }
 
-    fn finish(&self, columns: Columns<'_, T>, weight: f64) {
+    fn finish(&self, columns: Columns<'_>, weight: f64) {
         let Columns {
             position,
             velocity,

@@ -1,6 +1,4 @@
-use glam::DVec3;
-
-use super::{Columns, Coordinate, Integrator, Motions, Stage, System};
+use super::{Columns, Integrator, Motions, Stage, System};
 use crate::damper::StepError;
 
 /// Velocity Verlet with the velocity predicted for the evaluation (Groot & Warren 1997,
@@ -14,13 +12,13 @@ use crate::damper::StepError;
 /// d^(1/4) damping. At 100 steps to a contact the restitution is good to 1e-3.
 #[derive(Debug, Clone, Default)]
 pub struct VelocityVerlet {
-    translation: Vec<DVec3>,
-    rotation: Vec<DVec3>,
+    translation: Vec<f64>,
+    rotation: Vec<f64>,
     mount: Vec<f64>,
 }
 
 /// Moves positions by the step, predicts velocities, and keeps the accelerations in `kept`.
-fn predict<T: Coordinate>(columns: Columns<'_, T>, kept: &mut Vec<T>, dt: f64) {
+fn predict(columns: Columns<'_>, kept: &mut Vec<f64>, dt: f64) {
     let Columns {
         position,
         velocity,
@@ -30,19 +28,19 @@ fn predict<T: Coordinate>(columns: Columns<'_, T>, kept: &mut Vec<T>, dt: f64) {
     kept.extend_from_slice(acceleration);
     if position.is_empty() {
         for (v, a) in velocity.iter_mut().zip(acceleration) {
-            *v = *v + *a * dt;
+            *v += *a * dt;
         }
         return;
     }
     let half = 0.5 * dt;
     for ((x, v), a) in position.iter_mut().zip(velocity).zip(acceleration) {
-        *x = *x + (*v + *a * half) * dt;
-        *v = *v + *a * dt;
+        *x += (*v + *a * half) * dt;
+        *v += *a * dt;
     }
 }
 
 /// Turns the predicted velocities into v + (a + a') dt/2.
-fn correct<T: Coordinate>(columns: Columns<'_, T>, kept: &[T], dt: f64) {
+fn correct(columns: Columns<'_>, kept: &[f64], dt: f64) {
     let half = 0.5 * dt;
     for ((v, new), old) in columns
         .velocity
@@ -50,7 +48,7 @@ fn correct<T: Coordinate>(columns: Columns<'_, T>, kept: &[T], dt: f64) {
         .zip(columns.acceleration)
         .zip(kept)
     {
-        *v = *v + (*new - *old) * half;
+        *v += (*new - *old) * half;
     }
 }
 

@@ -5,6 +5,7 @@ use glam::{DVec3, dvec3};
 use super::ContactLaw;
 use crate::contact::{Bodies, Body, Contact};
 use crate::damper::StepError;
+use crate::damper::vectors::{Axes, Vectors};
 use crate::integrator::{Columns, Integrator, Motions, Stage, System};
 use crate::material::{Interaction, Material, Materials};
 
@@ -13,11 +14,11 @@ pub(super) struct Collision<'l, L: ContactLaw> {
     bodies: Bodies,
     coefficients: L::Coefficients,
     memory: L::Memory,
-    position: Vec<DVec3>,
-    pub(super) velocity: Vec<DVec3>,
-    acceleration: Vec<DVec3>,
-    pub(super) spin: Vec<DVec3>,
-    spin_rate: Vec<DVec3>,
+    position: Vectors,
+    pub(super) velocity: Vectors,
+    acceleration: Vectors,
+    pub(super) spin: Vectors,
+    spin_rate: Vectors,
     pub(super) touching: bool,
     pub(super) peak: (f64, f64),
 }
@@ -63,8 +64,8 @@ impl<'l, L: ContactLaw> Collision<'l, L> {
             (2, bodies.first.radius + bodies.second.radius)
         };
         let column = |first: DVec3| {
-            let mut column = vec![DVec3::ZERO; count];
-            column[0] = first;
+            let mut column = Vectors::zeros(Axes::Space, count);
+            column.set(0, first);
             column
         };
         Self {
@@ -90,17 +91,17 @@ impl<'l, L: ContactLaw> Collision<'l, L> {
         let reach = self.bodies.first.radius;
         let mut contact = if self.bodies.at_wall() {
             let lever = -reach * DVec3::Y;
-            let velocity = self.velocity[0] + self.spin[0].cross(lever);
-            Contact::new(DVec3::Y, reach - self.position[0].y, velocity)
+            let velocity = self.velocity.get(0) + self.spin.get(0).cross(lever);
+            Contact::new(DVec3::Y, reach - self.position.get(0).y, velocity)
         } else {
-            let apart = self.position[0] - self.position[1];
+            let apart = self.position.get(0) - self.position.get(1);
             let normal = apart.normalize();
             let other = self.bodies.second.radius;
-            let turning = -(self.spin[0] * reach + self.spin[1] * other).cross(normal);
-            let velocity = self.velocity[0] - self.velocity[1] + turning;
+            let turning = -(self.spin.get(0) * reach + self.spin.get(1) * other).cross(normal);
+            let velocity = self.velocity.get(0) - self.velocity.get(1) + turning;
             Contact::new(normal, reach + other - apart.length(), velocity)
         };
-        contact.spins = [self.spin[0], *self.spin.get(1).unwrap_or(&DVec3::ZERO)];
+        contact.spins = [self.spin.get(0), self.spin.get(1)];
         contact.elapsed = elapsed;
         contact
     }
@@ -108,8 +109,8 @@ impl<'l, L: ContactLaw> Collision<'l, L> {
     pub(super) fn kinetic_energy(&self) -> f64 {
         let energy = |n: usize| {
             let Body { mass, radius, .. } = self.body(n);
-            let turning = 0.4 * radius * radius * self.spin[n].length_squared();
-            0.5 * mass * (self.velocity[n].length_squared() + turning)
+            let turning = 0.4 * radius * radius * self.spin.get(n).length_squared();
+            0.5 * mass * (self.velocity.get(n).length_squared() + turning)
         };
         (0..self.position.len()).map(energy).sum()
     }
@@ -142,14 +143,14 @@ impl<L: ContactLaw> System for Collision<'_, L> {
     fn motions(&mut self) -> Motions<'_> {
         Motions {
             translation: Columns {
-                position: &mut self.position,
-                velocity: &mut self.velocity,
-                acceleration: &self.acceleration,
+                position: self.position.flat_mut(),
+                velocity: self.velocity.flat_mut(),
+                acceleration: self.acceleration.flat(),
             },
             rotation: Columns {
                 position: &mut [],
-                velocity: &mut self.spin,
-                acceleration: &self.spin_rate,
+                velocity: self.spin.flat_mut(),
+                acceleration: self.spin_rate.flat(),
             },
             mount: Columns {
                 position: &mut [],
@@ -161,8 +162,8 @@ impl<L: ContactLaw> System for Collision<'_, L> {
 
     fn evaluate(&mut self, elapsed: f64, stage: Stage) -> Result<(), StepError> {
         let contact = self.contact(elapsed);
-        self.acceleration.fill(DVec3::ZERO);
-        self.spin_rate.fill(DVec3::ZERO);
+        self.acceleration.flat_mut().fill(0.0);
+        self.spin_rate.flat_mut().fill(0.0);
         let touching = contact.overlap > 0.0;
         if touching {
             let answer = self.law.force(&self.coefficients, &contact, &self.memory);
@@ -171,9 +172,10 @@ impl<L: ContactLaw> System for Collision<'_, L> {
             for (n, sign) in signs.into_iter().enumerate().take(self.position.len()) {
                 let Body { mass, radius, .. } = self.body(n);
                 let torque = -radius * contact.normal.cross(answer.tangential);
-                self.acceleration[n] = sign * force / mass;
-                self.spin_rate[n] =
-                    (torque + sign * answer.couple) / (0.4 * mass * radius * radius);
+                self.acceleration.set(n, sign * force / mass);
+                let torque = torque + sign * answer.couple;
+                self.spin_rate
+                    .set(n, torque / (0.4 * mass * radius * radius));
             }
             self.peak.0 = self.peak.0.max(contact.overlap);
             self.peak.1 = self.peak.1.max(answer.normal);

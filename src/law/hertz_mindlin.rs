@@ -237,7 +237,7 @@ mod tests {
         let mut impact = Collision::new(&law, bodies, velocity, DVec3::ZERO);
         let duration = law.elastic_impact(&bodies, 3.9).unwrap().duration();
         impact.run(&mut VelocityVerlet::default(), duration / steps);
-        impact.velocity[0].x / velocity.x
+        impact.velocity.get(0).x / velocity.x
     }
 
     #[test]

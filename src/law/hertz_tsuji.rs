@@ -268,8 +268,8 @@ mod tests {
             } else {
                 (2.0 / 7.0 * spin * radius, 2.0 / 7.0 * spin)
             };
-            assert_relative_eq!(impact.velocity[0].x, speed, max_relative = 3e-3);
-            assert_relative_eq!(-impact.spin[0].z, left, max_relative = 3e-3);
+            assert_relative_eq!(impact.velocity.get(0).x, speed, max_relative = 3e-3);
+            assert_relative_eq!(-impact.spin.get(0).z, left, max_relative = 3e-3);
         }
     }
 
@@ -278,10 +278,10 @@ mod tests {
     fn opposite_spins_feel_no_friction() {
         let law = HertzTsuji::new(Material::acrylic());
         let mut impact = Collision::new(&law, paper_bodies()[1], -DVec3::Y, 80.0 * DVec3::Z);
-        impact.spin[1] = -80.0 * DVec3::Z;
+        impact.spin.set(1, -80.0 * DVec3::Z);
         impact.run_in(&mut VelocityVerlet::default(), 50.0);
-        assert_abs_diff_eq!(impact.velocity[0].x, 0.0, epsilon = 1e-12);
-        assert_abs_diff_eq!(impact.spin[0].z, 80.0, epsilon = 1e-9);
+        assert_abs_diff_eq!(impact.velocity.get(0).x, 0.0, epsilon = 1e-12);
+        assert_abs_diff_eq!(impact.spin.get(0).z, 80.0, epsilon = 1e-9);
     }
 
     #[test]
