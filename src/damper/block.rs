@@ -197,8 +197,9 @@ impl<L: ContactLaw> Block<L> {
         for run in runs(list.contacts.len()) {
             answer_pairs::<C, L, END, PLANAR>(scene, list, chunk, run.clone());
             deepest = deepest.max(chunk.largest_overlap());
-            for (n, [i, j]) in list.contacts.bodies()[run.clone()].iter().enumerate() {
-                let (n, i, j) = (n % CHUNK, *i as usize - base, *j as usize - base);
+            let bodies = &list.contacts.bodies()[run.clone()];
+            for (n, [i, j]) in bodies.iter().take(CHUNK).enumerate() {
+                let (i, j) = (*i as usize - base, *j as usize - base);
                 let (push, [first, second]) = (chunk.push(n), chunk.torques(n));
                 sums.add(i, push, first);
                 sums.add(j, -push, second);
@@ -314,14 +315,15 @@ impl<'a, const PLANAR: bool> Sums<'a, PLANAR> {
     fn new(force: &'a mut [&mut [f64]; 3], torque: &'a mut [&mut [f64]; 3]) -> Self {
         // Columns of one length, so that one comparison stands for all their bounds.
         let count = force[0].len();
-        let even = |column: &'a mut &mut [f64]| {
-            let end = count.min(column.len());
+        let even = |column: &'a mut &mut [f64], used: bool| {
+            let end = if used { count } else { 0 };
             &mut column[..end]
         };
-        Self {
-            force: force.each_mut().map(even),
-            torque: torque.each_mut().map(even),
-        }
+        let [x, y, z] = force.each_mut();
+        let force = [even(x, true), even(y, true), even(z, !PLANAR)];
+        let [x, y, z] = torque.each_mut();
+        let torque = [even(x, !PLANAR), even(y, !PLANAR), even(z, true)];
+        Self { force, torque }
     }
 
     #[inline(always)]
@@ -379,7 +381,7 @@ fn answer_pairs<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
     let bodies = &list.contacts.bodies()[run.clone()];
     let places = &list.contacts.places()[run.clone()];
     chunk.gather_pairs::<C, PLANAR>(scene, bodies);
-    chunk.recall(places.iter().map(|place| list.memory(*place, scene.stamp)));
+    list.recall(run.clone(), scene.stamp, chunk.memory_mut());
     let kinds = bodies.iter().zip(places).map(|([i, j], place)| {
         let first = scene.species[*i as usize];
         let second = scene.species[*j as usize];
@@ -402,9 +404,8 @@ fn answer_walls<C: Cavity, L: ContactLaw, const END: bool>(
     run: Range<usize>,
 ) {
     let bodies = &list.contacts.bodies()[run.clone()];
-    let places = &list.contacts.places()[run.clone()];
     chunk.gather_walls::<C>(scene, bodies);
-    chunk.recall(places.iter().map(|place| list.memory(*place, scene.stamp)));
+    list.recall(run.clone(), scene.stamp, chunk.memory_mut());
     let kinds = bodies.iter().map(|[slot, _]| {
         let species = scene.species[*slot as usize];
         *scene.coefficients.wall(species)

@@ -250,6 +250,21 @@ impl<L: ContactLaw> Candidates<L> {
         L::Memory::default()
     }
 
+    /// Copies what the contacts of a run remember from the end of step `stamp`.
+    #[inline(always)]
+    pub(crate) fn recall(&self, run: Range<usize>, stamp: u32, memories: &mut [L::Memory]) {
+        if Self::REMEMBERS {
+            for (place, memory) in self.contacts.places[run].iter().zip(memories) {
+                let entry = &self.entries[*place as usize];
+                if entry.touched == stamp {
+                    *memory = entry.memory;
+                } else {
+                    *memory = L::Memory::default();
+                }
+            }
+        }
+    }
+
     /// Keeps what the contacts of a run remember at the end of step `stamp`.
     #[inline(always)]
     pub(crate) fn keep(&mut self, run: Range<usize>, stamp: u32, memories: &[L::Memory]) {

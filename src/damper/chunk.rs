@@ -101,9 +101,15 @@ impl<L: ContactLaw> Chunk<L> {
         let count = x.len();
         let (y, u, v) = (&y[..count], &u[..count], &v[..count]);
         let (turns_z, radius) = (&turns_z[..count], &scene.radius[..count]);
+        let (z, w, turns_x, turns_y) = if PLANAR {
+            (x, x, x, x)
+        } else {
+            let turns = (&turns_x[..count], &turns_y[..count]);
+            (&z[..count], &w[..count], turns.0, turns.1)
+        };
         self.count = bodies.len().min(CHUNK);
-        for (n, [i, j]) in bodies[..self.count].iter().enumerate() {
-            let (n, i, j) = (n % CHUNK, *i as usize, *j as usize);
+        for (n, [i, j]) in bodies.iter().take(CHUNK).enumerate() {
+            let (i, j) = (*i as usize, *j as usize);
             self.towards.x[n] = x[i] - x[j];
             self.towards.y[n] = y[i] - y[j];
             self.velocity.x[n] = u[i] - u[j];
@@ -142,12 +148,10 @@ impl<L: ContactLaw> Chunk<L> {
         }
     }
 
-    /// Takes over what the contacts remember.
+    /// Where it is put what the contacts remember.
     #[inline(always)]
-    pub(crate) fn recall(&mut self, memories: impl Iterator<Item = L::Memory>) {
-        for (own, memory) in self.memory.iter_mut().zip(memories) {
-            *own = memory;
-        }
+    pub(crate) const fn memory_mut(&mut self) -> &mut [L::Memory; CHUNK] {
+        &mut self.memory
     }
 
     /// The contact of a number, `elapsed` seconds after its memory was advanced. Coincident centres
