@@ -127,8 +127,15 @@ impl Vectors {
 
     /// Whether all numbers are finite.
     pub(crate) fn is_finite(&self) -> bool {
-        let finite = |all: bool, value: &f64| all & value.is_finite();
-        self.values.iter().fold(true, finite)
+        // Zero times a number is zero, unless the number is not finite. Four sums, to be vectors.
+        let (fours, rest) = self.values.as_chunks::<4>();
+        let mut sums = [0.0; 4];
+        for four in fours {
+            for (sum, value) in sums.iter_mut().zip(four) {
+                *sum += value * 0.0;
+            }
+        }
+        sums.iter().chain(rest).all(|value| value.is_finite())
     }
 
     /// Memory in bytes that the column has reserved.
