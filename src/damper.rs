@@ -28,6 +28,7 @@ mod particles;
 mod scene;
 mod setup;
 mod snapshot;
+mod sort;
 mod step;
 pub(crate) mod vectors;
 mod view;
@@ -123,6 +124,7 @@ where
     }
 
     fn advance<O: Observer>(&mut self, dt: f64, observer: &mut O) -> Result<(), StepError> {
+        self.engine.sort_in_time()?;
         let impulsive = self.engine.world.law.evaluation() != Evaluation::EveryStage;
         if impulsive {
             self.engine.strike(dt, observer)?;

@@ -12,7 +12,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::Partner;
-use super::candidates::{Candidates, Remembered, Touch};
+use super::candidates::{Candidates, Remembered, Touch, pair};
 use super::chunk::{CHUNK, Chunk};
 use super::scene::{Scene, WallLoad};
 use super::vectors::{Components, part, vector};
@@ -101,9 +101,9 @@ impl<L: ContactLaw> Block<L> {
         memory: &[Vec<Remembered<L::Memory>>; 2],
     ) {
         let [pairs, walls] = memory;
-        self.pairs.finish(scene.stamp, pairs);
-        self.border.finish(scene.stamp, pairs);
-        self.walls.finish(scene.stamp, walls);
+        self.pairs.finish(scene.stamp, pairs, pair);
+        self.border.finish(scene.stamp, pairs, pair);
+        self.walls.finish(scene.stamp, walls, |slot, wall| (slot, wall));
         self.parcels.reserve(self.border.candidates());
     }
 
@@ -214,13 +214,18 @@ impl<L: ContactLaw> Block<L> {
             deepest = deepest.max(chunk.largest_overlap());
             for (n, [i, j]) in list.contacts.bodies()[run.clone()].iter().enumerate() {
                 let (push, [first, second]) = (chunk.push(n), chunk.torques(n));
-                let i = *i as usize - base;
-                sums.add(i, push, first);
-                self.parcels.push(Parcel {
-                    slot: *j,
-                    force: -push,
-                    torque: second,
-                });
+                let both = [(*i, push, first), (*j, -push, second)];
+                for (slot, force, torque) in both {
+                    if self.slots.contains(&(slot as usize)) {
+                        sums.add(slot as usize - base, force, torque);
+                    } else {
+                        self.parcels.push(Parcel {
+                            slot,
+                            force,
+                            torque,
+                        });
+                    }
+                }
             }
             if END && observer.wants_contacts() {
                 report_pairs(scene, list, chunk, run, observer);

@@ -237,6 +237,7 @@ where
             },
             time: 0.0,
             detections: 0,
+            since_sort: 0,
             overlap_limit: self.overlap_limit * smallest,
             contained: self.contained,
         };
@@ -462,6 +463,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 self.particles.position.set(slot, position);
             }
         }
+        self.sort();
         self.find_contacts(true)?;
         self.check_initial_overlaps(allowed)?;
         if self.world.law.evaluation() == Evaluation::EveryStage {

@@ -39,8 +39,23 @@ pub(crate) struct Remembered<M> {
 }
 
 impl<M> Remembered<M> {
-    pub(crate) const fn key(&self) -> (u32, u32) {
+    /// The two slots of a pair, the lower one first: memories of pairs are in ascending order of it.
+    pub(crate) const fn pair(&self) -> (u32, u32) {
+        pair(self.first, self.second)
+    }
+
+    /// The slot and the wall: memories of contacts with walls are in ascending order of it.
+    pub(crate) const fn wall(&self) -> (u32, u32) {
         (self.first, self.second)
+    }
+}
+
+/// Two slots, the lower one first.
+pub(crate) const fn pair(first: u32, second: u32) -> (u32, u32) {
+    if first < second {
+        (first, second)
+    } else {
+        (second, first)
     }
 }
 
@@ -140,7 +155,8 @@ impl<L: ContactLaw> Candidates<L> {
         self.list.reserve(candidates);
     }
 
-    /// Adds a candidate. They come in ascending order of `first` and `second`.
+    /// Adds a candidate. Pairs come in ascending order of their slots, the lower one first; walls in
+    /// ascending order of slot and wall.
     pub(crate) fn push(&mut self, first: u32, second: u32, limit: f64) {
         self.list.push(Candidate {
             first,
@@ -150,8 +166,13 @@ impl<L: ContactLaw> Candidates<L> {
     }
 
     /// Makes a finished list ready: gives its contacts their memory back, which `remembered` holds in
-    /// ascending order.
-    pub(crate) fn finish(&mut self, stamp: u32, remembered: &[Remembered<L::Memory>]) {
+    /// ascending order of the `key` by which candidates are sorted.
+    pub(crate) fn finish(
+        &mut self,
+        stamp: u32,
+        remembered: &[Remembered<L::Memory>],
+        key: impl Fn(u32, u32) -> (u32, u32),
+    ) {
         let count = self.list.len();
         // One place more, because entries are written before it is known whether they count.
         let room = self.list.capacity() + 1;
@@ -168,9 +189,10 @@ impl<L: ContactLaw> Candidates<L> {
         fit(&mut self.entries, count, room, new);
         let mut remembered = remembered.iter().peekable();
         for (place, candidate) in self.list.iter().enumerate() {
-            let key = (candidate.first, candidate.second);
-            while remembered.next_if(|contact| contact.key() < key).is_some() {}
-            if let Some(contact) = remembered.next_if(|contact| contact.key() == key) {
+            let own = key(candidate.first, candidate.second);
+            let of = |contact: &Remembered<L::Memory>| key(contact.first, contact.second);
+            while remembered.next_if(|contact| of(contact) < own).is_some() {}
+            if let Some(contact) = remembered.next_if(|contact| of(contact) == own) {
                 self.entries[place] = Entry {
                     touched: stamp,
                     memory: contact.memory,

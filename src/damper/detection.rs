@@ -42,7 +42,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         for block in &mut self.blocks {
             block.clear(self.world.stamp, &mut self.scratch.memory);
         }
-        self.scratch.memory[0].sort_unstable_by_key(Remembered::key);
+        self.scratch.memory[0].sort_unstable_by_key(Remembered::pair);
         self.list()
     }
 
@@ -137,7 +137,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Fills the blocks' empty lists from the sorted proposals, and with the walls that are near.
     fn list_candidates(&mut self) {
         let (scratch, world) = (&mut self.scratch, &self.world);
-        let radius = &self.particles.radius;
+        let (radius, number) = (&self.particles.radius, &self.particles.number);
         for block in &mut self.blocks {
             for slot in block.slots.clone() {
                 let row = scratch.rows[slot] as usize..scratch.rows[slot + 1] as usize;
@@ -155,7 +155,12 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     } else {
                         &mut block.border
                     };
-                    list.push(slot as u32, partner, reach * reach);
+                    // The one with the lower number comes first, wherever it stands.
+                    let (mut first, mut second) = (slot as u32, partner);
+                    if number[slot] > number[partner as usize] {
+                        std::mem::swap(&mut first, &mut second);
+                    }
+                    list.push(first, second, reach * reach);
                 }
             }
             for room in &world.rooms {
@@ -179,7 +184,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         for block in &self.blocks {
             block.remember(self.world.stamp, &mut memory);
         }
-        memory[0].sort_unstable_by_key(Remembered::key);
+        memory[0].sort_unstable_by_key(Remembered::pair);
         memory
     }
 }

@@ -124,6 +124,8 @@ pub(crate) struct Engine<C, L: ContactLaw, M, D> {
     pub(crate) loads: Vec<DVec3>,
     pub(crate) time: f64,
     pub(crate) detections: u64,
+    /// Steps since a large bed was sorted.
+    pub(crate) since_sort: u32,
     pub(crate) overlap_limit: f64,
     pub(crate) contained: bool,
 }

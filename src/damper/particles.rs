@@ -86,20 +86,27 @@ impl Particles {
         columns
     }
 
-    /// Moves what never changes of each particle to the slots that `number` gives it. The columns of
-    /// motion are the caller's to move.
+    /// Moves each particle to the slot that `number` gives it.
     pub(crate) fn rearrange(&mut self, number: &[u32]) {
         let from: Vec<usize> = number
             .iter()
             .map(|number| self.slot[*number as usize] as usize)
             .collect();
-        self.radius = from.iter().map(|slot| self.radius[*slot]).collect();
-        self.inverse_mass = from.iter().map(|slot| self.inverse_mass[*slot]).collect();
-        self.inverse_inertia = from
-            .iter()
-            .map(|slot| self.inverse_inertia[*slot])
-            .collect();
-        self.species = from.iter().map(|slot| self.species[*slot]).collect();
+        for column in [
+            &mut self.position,
+            &mut self.velocity,
+            &mut self.spin,
+            &mut self.acceleration,
+            &mut self.angular_acceleration,
+        ] {
+            for component in column.components_mut() {
+                permute(component, &from);
+            }
+        }
+        permute(&mut self.radius, &from);
+        permute(&mut self.inverse_mass, &from);
+        permute(&mut self.inverse_inertia, &from);
+        permute(&mut self.species, &from);
         self.number.copy_from_slice(number);
         for (slot, number) in number.iter().enumerate() {
             self.slot[*number as usize] = slot as u32;
@@ -138,5 +145,13 @@ impl Particles {
             velocity: self.velocity.get(slot),
             spin: self.spin.get(slot),
         }
+    }
+}
+
+/// Fills a column with its values at the places `from`; an empty one stays so.
+fn permute<T: Copy>(column: &mut [T], from: &[usize]) {
+    if !column.is_empty() {
+        let moved: Vec<T> = from.iter().map(|place| column[*place]).collect();
+        column.copy_from_slice(&moved);
     }
 }

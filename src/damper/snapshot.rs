@@ -48,6 +48,7 @@ pub struct Snapshot<Memory> {
     version: u32,
     setup: Setup,
     clock: Clock,
+    since_sort: u32,
     species: Vec<u32>,
     number: Vec<u32>,
     position: Vec<DVec3>,
@@ -208,14 +209,16 @@ impl<Memory> Snapshot<Memory> {
     fn check_memory(&self, particles: usize, walls: usize) -> Result<(), RestoreError> {
         let [pairs, others] = &self.memory;
         let paired = |contact: &Remembered<Memory>| {
-            contact.first < contact.second && (contact.second as usize) < particles
+            let (low, high) = contact.pair();
+            low < high && (high as usize) < particles
         };
         let walled = |contact: &Remembered<Memory>| {
             (contact.first as usize) < particles && (contact.second as usize) < walls
         };
-        let rising = |list: &[Remembered<Memory>]| list.is_sorted_by(|a, b| a.key() < b.key());
+        let rising = pairs.is_sorted_by(|a, b| a.pair() < b.pair())
+            && others.is_sorted_by(|a, b| a.wall() < b.wall());
         let sound = pairs.iter().all(paired) && others.iter().all(walled);
-        RestoreError::sound("contacts", sound && rising(pairs) && rising(others))
+        RestoreError::sound("contacts", sound && rising)
     }
 }
 
@@ -236,6 +239,7 @@ where
             version: VERSION,
             setup: self.setup,
             clock: self.clock,
+            since_sort: engine.since_sort,
             species: particles.species.clone(),
             number: particles.number.clone(),
             position: particles.position.iter().collect(),
@@ -282,6 +286,7 @@ where
         }
         engine.mount.resume(&snapshot.containers);
         self.clock = snapshot.clock;
+        engine.since_sort = snapshot.since_sort;
         engine.time = self.clock.time();
         engine.recall(&snapshot.memory)?;
         Ok(())
