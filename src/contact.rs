@@ -96,6 +96,9 @@ pub struct Contact {
     /// Time since the contact's memory was advanced, in s. For an impulse this is the length of the
     /// step over which its force is held.
     pub elapsed: f64,
+    /// Length of the step in s, so that a law can tell the first and the last one of a contact; zero
+    /// where nothing is stepped.
+    pub time_step: f64,
     /// Velocity that the second body gains per unit impulse, in 1/kg: the identity over its mass
     /// for a sphere, what the mount says for a wall, zero for a wall that does not yield. Laws that
     /// are evaluated at every stage see zero.
@@ -115,6 +118,7 @@ impl Contact {
             acceleration: DVec3::ZERO,
             spins: [DVec3::ZERO; 2],
             elapsed: 0.0,
+            time_step: 0.0,
             mobility: DMat3::ZERO,
         }
     }

@@ -125,7 +125,7 @@ where
         if impulsive {
             self.engine.strike(dt, observer)?;
         } else {
-            self.engine.start_step();
+            self.engine.start_step(dt);
         }
         let mut step = Step {
             begin: self.clock.time(),

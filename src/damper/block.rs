@@ -227,7 +227,7 @@ impl<L: ContactLaw> Block<L> {
             let grain = scene.grain(slot);
             let point = scene.wall_point(wall, grain.position);
             let container = scene.room_of_wall(wall).moving(scene.elapsed);
-            let contact = wall_contact(&grain, &point, container, scene.elapsed);
+            let contact = wall_contact(&grain, &point, container, scene.times());
             let kind = scene.coefficients.wall(scene.species[slot]);
             let answer = answer::<L, END>(
                 scene.stamp,
@@ -356,7 +356,7 @@ fn answer_pairs<C: Cavity, L: ContactLaw, O: Observer, const END: bool>(
         if i >= count || j >= count {
             continue;
         }
-        let pair = PairContact::new(&even.grain(i), &even.grain(j), &touch, even.elapsed);
+        let pair = PairContact::new(&even.grain(i), &even.grain(j), &touch, even.times());
         let own = list.prepared(touch.place);
         let (first, second) = (even.species[i], even.species[j]);
         let kind = even.coefficients.pair(first, second, own);

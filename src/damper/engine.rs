@@ -175,8 +175,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         Ok(())
     }
 
-    /// Notes how the containers move at the start of a step.
-    pub(crate) fn start_step(&mut self) {
+    /// Notes the length of a step, and how the containers move at its start.
+    pub(crate) fn start_step(&mut self, time_step: f64) {
+        self.world.time_step = time_step;
         let degrees = self.mount.degrees();
         let coordinates = &self.mount_state.position[..degrees];
         let rates = &self.mount_state.velocity[..degrees];

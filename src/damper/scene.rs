@@ -44,6 +44,8 @@ pub(crate) struct World<C, L: ContactLaw> {
     pub(crate) reach: f64,
     /// Number of the last accepted step; it wraps.
     pub(crate) stamp: u32,
+    /// Length of the step, s; zero before the first one.
+    pub(crate) time_step: f64,
 }
 
 impl<C, L: ContactLaw> World<C, L> {
@@ -63,6 +65,7 @@ impl<C, L: ContactLaw> World<C, L> {
             species: &particles.species,
             number: &particles.number,
             elapsed,
+            time_step: self.time_step,
             stamp: self.stamp,
         }
     }
@@ -90,6 +93,8 @@ pub(crate) struct Scene<'a, C, L: ContactLaw> {
     pub(crate) number: &'a [u32],
     /// Time since memories were advanced, s.
     pub(crate) elapsed: f64,
+    /// Length of the step, s.
+    pub(crate) time_step: f64,
     /// Number of the last accepted step.
     pub(crate) stamp: u32,
 }
@@ -112,10 +117,15 @@ pub(crate) struct PairContact {
 }
 
 impl PairContact {
-    /// The contact of two particles that `touch`, `elapsed` seconds after its memory was advanced.
-    /// Coincident centres have no normal and feel no force.
+    /// The contact of two particles that `touch`, `elapsed` seconds after its memory was advanced, in
+    /// a step of `time_step`. Coincident centres have no normal and feel no force.
     #[inline(always)]
-    pub(crate) fn new(first: &Grain, second: &Grain, touch: &Touch, elapsed: f64) -> Self {
+    pub(crate) fn new(
+        first: &Grain,
+        second: &Grain,
+        touch: &Touch,
+        [elapsed, time_step]: [f64; 2],
+    ) -> Self {
         let normal = (first.position - second.position) * touch.inverse;
         let turning = first.spin * first.radius + second.spin * second.radius;
         let velocity = first.velocity - second.velocity - turning.cross(normal);
@@ -131,6 +141,7 @@ impl PairContact {
                 acceleration,
                 spins: [first.spin, second.spin],
                 elapsed,
+                time_step,
                 mobility: DMat3::ZERO,
             },
             radii: [first.radius, second.radius],
@@ -156,7 +167,7 @@ pub(crate) fn wall_contact(
     grain: &Grain,
     wall: &WallPoint,
     container: [DVec3; 2],
-    elapsed: f64,
+    [elapsed, time_step]: [f64; 2],
 ) -> Contact {
     let turning = grain.spin * grain.radius;
     let velocity = grain.velocity - container[0] - turning.cross(wall.normal);
@@ -170,6 +181,7 @@ pub(crate) fn wall_contact(
         acceleration,
         spins: [grain.spin, DVec3::ZERO],
         elapsed,
+        time_step,
         mobility: DMat3::ZERO,
     }
 }
@@ -192,6 +204,12 @@ impl<C> Room<C> {
 }
 
 impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
+    /// Time since memories were advanced, and the length of the step, s.
+    #[inline(always)]
+    pub(crate) fn times(&self) -> [f64; 2] {
+        [self.elapsed, self.time_step]
+    }
+
     /// The particle in a slot.
     #[inline(always)]
     pub(crate) fn grain(&self, slot: usize) -> Grain {
