@@ -11,6 +11,7 @@ use crate::material::MaterialId;
 #[cfg(test)]
 mod collision;
 mod damping;
+mod edge;
 mod friction;
 mod hertz;
 mod hertz_mindlin;

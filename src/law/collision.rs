@@ -16,6 +16,7 @@ pub(super) struct Collision<'l, L: ContactLaw> {
     position: Vec<DVec3>,
     pub(super) velocity: Vec<DVec3>,
     acceleration: Vec<DVec3>,
+    time_step: f64,
     pub(super) spin: Vec<DVec3>,
     spin_rate: Vec<DVec3>,
     pub(super) touching: bool,
@@ -75,6 +76,7 @@ impl<'l, L: ContactLaw> Collision<'l, L> {
             position: column(dvec3(0.0, height, 0.0)),
             velocity: column(velocity),
             acceleration: column(DVec3::ZERO),
+            time_step: 0.0,
             spin: column(spin),
             spin_rate: column(DVec3::ZERO),
             touching: true,
@@ -115,6 +117,7 @@ impl<'l, L: ContactLaw> Collision<'l, L> {
         contact.acceleration = first - second - turning;
         contact.spins = [self.spin[0], *self.spin.get(1).unwrap_or(&DVec3::ZERO)];
         contact.elapsed = elapsed;
+        contact.time_step = self.time_step;
         contact
     }
 
@@ -134,6 +137,7 @@ impl<'l, L: ContactLaw> Collision<'l, L> {
 
     /// Steps until the bodies have parted; returns how long they touched.
     pub(super) fn run(&mut self, integrator: &mut impl Integrator, time_step: f64) -> f64 {
+        self.time_step = time_step;
         let mut steps = 0;
         while self.touching {
             integrator.step(self, time_step).unwrap();

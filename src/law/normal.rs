@@ -2,15 +2,30 @@
 
 use super::LawError;
 use super::damping::{Damping, Ending};
+use super::edge::Power;
 use super::hertz::ElasticImpact;
 use crate::contact::{Bodies, Contact, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::{Interaction, Material, MaterialId, Materials};
 
-/// The most of a contact duration that one step may take. In a hexagonal packing as compressed as
-/// an impact at the reference speed, the fastest oscillation has sqrt 3 times the frequency of one
-/// contact; at a quarter, frequency times step is 1.75, under the 2 that Verlet's method bears.
-const PART_OF_CONTACT: f64 = 0.25;
+/// The fewest steps to a contact. In a hexagonal packing as compressed as an impact at the reference
+/// speed, the fastest oscillation has sqrt 3 times the frequency of one contact; with four, frequency
+/// times step is 1.75, under the 2 that Verlet's method bears.
+const FEWEST_STEPS: f64 = 4.0;
+
+/// What integration can add to the energy of an undamped impact in n steps, times n^3, from above: of
+/// bodies that meet one, two or three others, in any phase of the step, under both integrators.
+const GAIN: f64 = 4.0;
+
+/// Enough steps to a contact for any restitution: what an impact without damping can gain is below
+/// 4/50^3, and a thousand bounces of one ball change its energy by less than 1e-4.
+const ELASTIC_STEPS: f64 = 50.0;
+
+/// The fewest steps to a contact in which damping takes more energy than integration can add.
+fn fewest_steps(restitution: f64) -> f64 {
+    let loss = 1.0 - restitution * restitution;
+    (GAIN / loss).cbrt().clamp(FEWEST_STEPS, ELASTIC_STEPS)
+}
 
 /// Hertz's spring with damping, for a table of materials.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,6 +46,8 @@ pub(super) struct NormalCoefficients {
     stiffness: f64,
     /// c in N s/m^(3/2) or N s/m^(5/4).
     damping: f64,
+    /// 1/m* in 1/kg.
+    mobility: f64,
 }
 
 /// The normal force at one instant, in parts.
@@ -148,9 +165,11 @@ impl NormalForce {
         let coefficients = NormalCoefficients {
             stiffness: impact.stiffness(),
             damping,
+            mobility: 1.0 / impact.effective_mass(),
         };
         let rate = self.damping.greatest_rate(damping, &impact);
-        let longest = (PART_OF_CONTACT * impact.duration()).min(1.0 / rate);
+        let steps = fewest_steps(self.interaction(bodies)?.restitution);
+        let longest = (impact.duration() / steps).min(1.0 / rate);
         Ok((coefficients, longest))
     }
 
@@ -165,15 +184,56 @@ impl NormalForce {
         };
         let resistance = coefficients.damping * shape;
         let spring = coefficients.stiffness * overlap * root;
-        let force = spring + resistance * contact.approach_speed();
+        let approach = contact.approach_speed();
+        let mut force = self.ended(spring + resistance * approach);
+        if overlap < 2.0 * contact.time_step * approach.abs() {
+            // The mean over the time since the step began: the speed of touch, if they touched since.
+            let gained = 0.5 * contact.elapsed * contact.acceleration.dot(contact.normal);
+            let coming = approach + gained;
+            let parting = approach < 0.0;
+            let sample = [overlap, coming, contact.time_step, force];
+            force = self.at_edge(coefficients, sample, parting);
+        }
         Normal {
             root,
             resistance,
-            force: match self.ending {
-                Ending::NeverPulling => force.max(0.0),
-                Ending::PullingAllowed => force,
-            },
+            force,
         }
+    }
+
+    #[inline(always)]
+    fn ended(&self, force: f64) -> f64 {
+        match self.ending {
+            Ending::NeverPulling => force.max(0.0),
+            Ending::PullingAllowed => force,
+        }
+    }
+
+    /// The force where the bodies may have met or may part within a step h of now, `force` by the
+    /// formula, with what evaluations h apart miss made up for ([`edge`](super::edge)).
+    #[cold]
+    fn at_edge(
+        &self,
+        coefficients: &NormalCoefficients,
+        [overlap, coming, h, force]: [f64; 4],
+        parting: bool,
+    ) -> f64 {
+        let (k, c) = (coefficients.stiffness, coefficients.damping);
+        let way = coming * h;
+        if overlap < way {
+            let (part, power) = (overlap / way, self.damping.power());
+            let spring = k * Power::ThreeHalves.of(way) * Power::ThreeHalves.sampled(part);
+            return spring + c * coming * power.of(way) * power.sampled(part);
+        }
+        // A spring ends as it sets in. Where damping ends, the force is smooth if it never pulls, and
+        // a pull slows the bodies so much that the end cannot be foretold.
+        let way = (force * h * coefficients.mobility - coming) * h;
+        if parting && overlap < way {
+            let part = overlap / way;
+            let more = Power::ThreeHalves.sampled(part) - Power::ThreeHalves.of(part);
+            return self.ended(force + k * Power::ThreeHalves.of(way) * more);
+        }
+        force
     }
 
     /// Hertz's force and energy, 2/5 k d^(5/2); `tangential` is the energy (J) of the stretch.
