@@ -33,7 +33,7 @@ const GREATEST_TURN: f64 = 1.25;
 /// one step.
 ///
 /// # Time step
-/// As for [`HertzTsuji`](crate::HertzTsuji), and short enough for the tangential oscillation, which
+/// As for [`HertzTsuji`](crate::HertzTsuji#time-step), and short enough for the tangential oscillation, which
 /// is quicker than the normal one by about sqrt 3 because it moves 2/7 m*: about two elevenths of a
 /// contact duration.
 #[derive(Debug, Clone, PartialEq)]

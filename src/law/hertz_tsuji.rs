@@ -32,6 +32,18 @@ use crate::material::Materials;
 /// integrator amplifies what damping should take away. The second bound is the shorter one for
 /// restitutions under about a third.
 ///
+/// Where damping is weak a contact takes `n = (4 / (1 - e^2))^(1/3)` steps at least, up to 50 for an
+/// elastic one: a step can add `4 / n^3` of its energy to an impact at the very most, which damping
+/// then takes away again. An elastic ball keeps its energy to 1e-4 over a thousand bounces.
+///
+/// Bodies meet and part in the midst of a step. What evaluations a step apart miss of the force there
+/// is made up for by the first of them (by the last, of the spring), so that impacts are of second
+/// order in the step, and a step as coarse as above leaves the energy right.
+///
+/// # Walls
+/// A wall counts as infinitely heavy, also where the container yields: one of mass `M` lowers the
+/// restitution of a particle of mass `m` as damping `(1 + m/M)^(1/2)` times as strong would.
+///
 /// ```
 /// use particle_damper::{Bodies, Body, HertzTsuji, Material, Materials};
 ///

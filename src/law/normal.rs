@@ -21,6 +21,9 @@ const GAIN: f64 = 4.0;
 /// 4/50^3, and a thousand bounces of one ball change its energy by less than 1e-4.
 const ELASTIC_STEPS: f64 = 50.0;
 
+/// Bodies that just touched as the step began, to within rounding, have met in it.
+const JUST_NOW: f64 = 1.0 + 1e-6;
+
 /// The fewest steps to a contact in which damping takes more energy than integration can add.
 fn fewest_steps(restitution: f64) -> f64 {
     let loss = 1.0 - restitution * restitution;
@@ -187,8 +190,14 @@ impl NormalForce {
         let approach = contact.approach_speed();
         let mut force = self.ended(spring + resistance * approach);
         if overlap < 2.0 * contact.time_step * approach.abs() {
-            // The mean over the time since the step began: the speed of touch, if they touched since.
-            let gained = 0.5 * contact.elapsed * contact.acceleration.dot(contact.normal);
+            // The mean speed since the step began, which is that of touch if they touched since; before
+            // its end they may have touched in the step before, and the speed at its start is nearer.
+            let part = if contact.elapsed < contact.time_step {
+                1.0
+            } else {
+                0.5
+            };
+            let gained = part * contact.elapsed * contact.acceleration.dot(contact.normal);
             let coming = approach + gained;
             let parting = approach < 0.0;
             let sample = [overlap, coming, contact.time_step, force];
@@ -220,7 +229,7 @@ impl NormalForce {
     ) -> f64 {
         let (k, c) = (coefficients.stiffness, coefficients.damping);
         let way = coming * h;
-        if overlap < way {
+        if overlap < way * JUST_NOW {
             let (part, power) = (overlap / way, self.damping.power());
             let spring = k * Power::ThreeHalves.of(way) * Power::ThreeHalves.sampled(part);
             return spring + c * coming * power.of(way) * power.sampled(part);
