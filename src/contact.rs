@@ -96,9 +96,6 @@ pub struct Contact {
     /// Time since the contact's memory was advanced, in s. For an impulse this is the length of the
     /// step over which its force is held.
     pub elapsed: f64,
-    /// Length of the step in s, so that a law can tell the first and the last one of a contact; zero
-    /// where nothing is stepped.
-    pub time_step: f64,
     /// Velocity that the second body gains per unit impulse, in 1/kg: the identity over its mass
     /// for a sphere, what the mount says for a wall, zero for a wall that does not yield. Laws that
     /// are evaluated at every stage see zero.
@@ -118,7 +115,6 @@ impl Contact {
             acceleration: DVec3::ZERO,
             spins: [DVec3::ZERO; 2],
             elapsed: 0.0,
-            time_step: 0.0,
             mobility: DMat3::ZERO,
         }
     }
@@ -135,6 +131,37 @@ impl Contact {
     #[inline(always)]
     pub fn slip(&self) -> DVec3 {
         self.velocity + self.approach_speed() * self.normal
+    }
+}
+
+/// What a law sees besides of a contact that may begin or end within a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Edge {
+    /// Length of the step in s: the force of a contact is taken at intervals of this length.
+    pub time_step: f64,
+    /// How fast the bodies' speed of separation along the normal changed when forces were evaluated
+    /// last, in m/s^2.
+    pub acceleration: f64,
+}
+
+impl Edge {
+    /// A step of `time_step` (s), and the acceleration along the normal (m/s^2).
+    #[must_use]
+    #[inline(always)]
+    pub const fn new(time_step: f64, acceleration: f64) -> Self {
+        Self {
+            time_step,
+            acceleration,
+        }
+    }
+
+    /// Whether two bodies that overlap by `overlap` (m) and approach or part with `speed` (m/s) may
+    /// have met, or may part, within a step of `time_step` (s). Speeds within it may be twice as high.
+    #[must_use]
+    #[inline(always)]
+    pub const fn is_near(overlap: f64, speed: f64, time_step: f64) -> bool {
+        overlap < 2.0 * time_step * speed.abs()
     }
 }
 

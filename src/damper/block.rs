@@ -15,7 +15,7 @@ use super::Partner;
 use super::candidates::{Candidates, Remembered, Touch};
 use super::scene::{PairContact, Scene, WallLoad, wall_contact};
 use crate::cavity::Cavity;
-use crate::contact::{Contact, ContactForce};
+use crate::contact::{Contact, ContactForce, Edge};
 use crate::law::{ContactLaw, LawError};
 use crate::observer::{ContactEvent, Observer};
 
@@ -227,15 +227,15 @@ impl<L: ContactLaw> Block<L> {
             let grain = scene.grain(slot);
             let point = scene.wall_point(wall, grain.position);
             let container = scene.room_of_wall(wall).moving(scene.elapsed);
-            let contact = wall_contact(&grain, &point, container, scene.times());
+            let contact = wall_contact(&grain, &point, container, scene.elapsed);
             let kind = scene.coefficients.wall(scene.species[slot]);
             let answer = answer::<L, END>(
-                scene.stamp,
+                [scene.stamp, touch.place],
                 scene.law,
                 &mut self.walls,
-                touch.place,
                 kind,
                 &contact,
+                scene.time_step,
             );
             self.largest_overlap = self.largest_overlap.max(contact.overlap);
             let push = contact.normal * answer.normal + answer.tangential;
@@ -312,14 +312,23 @@ impl<L: ContactLaw> Block<L> {
 /// The law's answer to a contact; at the end of a step the contact's memory advances.
 #[inline(always)]
 fn answer<L: ContactLaw, const END: bool>(
-    stamp: u32,
+    [stamp, place]: [u32; 2],
     law: &L,
     list: &mut Candidates<L>,
-    place: u32,
     kind: &L::Coefficients,
     contact: &Contact,
+    time_step: f64,
 ) -> ContactForce {
     let memory = list.memory(place, stamp);
+    if law.has_edges() && Edge::is_near(contact.overlap, contact.approach_speed(), time_step) {
+        let acceleration = contact.acceleration.dot(contact.normal);
+        let edge = Edge::new(time_step, acceleration);
+        let (answer, memory) = law.at_edge(kind, contact, &memory, &edge);
+        if END {
+            list.keep(place, stamp.wrapping_add(1), memory);
+        }
+        return answer;
+    }
     let answer = law.force(kind, contact, &memory);
     if END {
         let memory = law.advance(kind, contact, &memory);
@@ -356,12 +365,12 @@ fn answer_pairs<C: Cavity, L: ContactLaw, O: Observer, const END: bool>(
         if i >= count || j >= count {
             continue;
         }
-        let pair = PairContact::new(&even.grain(i), &even.grain(j), &touch, even.times());
+        let pair = PairContact::new(&even.grain(i), &even.grain(j), &touch, even.elapsed);
         let own = list.prepared(touch.place);
         let (first, second) = (even.species[i], even.species[j]);
         let kind = even.coefficients.pair(first, second, own);
-        let (stamp, law) = (scene.stamp, scene.law);
-        let answer = answer::<L, END>(stamp, law, list, touch.place, &kind, &pair.contact);
+        let (law, at) = (scene.law, [scene.stamp, touch.place]);
+        let answer = answer::<L, END>(at, law, list, &kind, &pair.contact, scene.time_step);
         deepest = deepest.max(pair.contact.overlap);
         let (push, first, second) = pair.resolve(&answer);
         deliver(&touch, push, [first, second]);

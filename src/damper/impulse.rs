@@ -111,7 +111,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     let (i, j) = (touch.first as usize, touch.second as usize);
                     let working = |velocity: &[DVec3], spin: &[DVec3]| {
                         let struck = |slot| struck(&scene, slot, velocity, spin);
-                        PairContact::new(&struck(i), &struck(j), &touch, [time_step; 2])
+                        PairContact::new(&struck(i), &struck(j), &touch, time_step)
                     };
                     let mut pair = if sequential {
                         working(velocity, spin)
@@ -174,12 +174,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     let coordinates = &self.mount_state.position[..degrees];
                     let container = self.mount.motion(self.time, coordinates, rates, cavity);
                     let grain = struck(&scene, slot, velocity, spin);
-                    wall_contact(
-                        &grain,
-                        &point,
-                        [container.velocity, DVec3::ZERO],
-                        [time_step; 2],
-                    )
+                    wall_contact(&grain, &point, [container.velocity, DVec3::ZERO], time_step)
                 };
                 let mut contact = if sequential {
                     working(velocity, spin, rates)
@@ -188,7 +183,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                         &struck(&scene, slot, scene.velocity, scene.spin),
                         &point,
                         [room.motion.velocity, DVec3::ZERO],
-                        [time_step; 2],
+                        time_step,
                     )
                 };
                 contact.velocity_ahead = contact.velocity + gravity - self.scratch.gain[cavity];
@@ -245,7 +240,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 for number in 0..list.contacts.len() {
                     let touch = list.touch(number);
                     let (i, j) = (touch.first as usize, touch.second as usize);
-                    let pair = PairContact::new(&struck(i), &struck(j), &touch, [time_step; 2]);
+                    let pair = PairContact::new(&struck(i), &struck(j), &touch, time_step);
                     let own = list.prepared(touch.place);
                     let kinds = (particles.species[i], particles.species[j]);
                     let kind = scene.coefficients.pair(kinds.0, kinds.1, own);
@@ -261,7 +256,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let point = scene.wall_point(touch.second, grain.position);
                 let container = scene.room_of_wall(touch.second).motion.velocity;
                 let container = [container, DVec3::ZERO];
-                let contact = wall_contact(&grain, &point, container, [time_step; 2]);
+                let contact = wall_contact(&grain, &point, container, time_step);
                 let kind = scene
                     .coefficients
                     .wall(particles.species[touch.first as usize]);

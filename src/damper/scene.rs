@@ -117,15 +117,10 @@ pub(crate) struct PairContact {
 }
 
 impl PairContact {
-    /// The contact of two particles that `touch`, `elapsed` seconds after its memory was advanced, in
-    /// a step of `time_step`. Coincident centres have no normal and feel no force.
+    /// The contact of two particles that `touch`, `elapsed` seconds after its memory was advanced.
+    /// Coincident centres have no normal and feel no force.
     #[inline(always)]
-    pub(crate) fn new(
-        first: &Grain,
-        second: &Grain,
-        touch: &Touch,
-        [elapsed, time_step]: [f64; 2],
-    ) -> Self {
+    pub(crate) fn new(first: &Grain, second: &Grain, touch: &Touch, elapsed: f64) -> Self {
         let normal = (first.position - second.position) * touch.inverse;
         let turning = first.spin * first.radius + second.spin * second.radius;
         let velocity = first.velocity - second.velocity - turning.cross(normal);
@@ -141,7 +136,6 @@ impl PairContact {
                 acceleration,
                 spins: [first.spin, second.spin],
                 elapsed,
-                time_step,
                 mobility: DMat3::ZERO,
             },
             radii: [first.radius, second.radius],
@@ -167,7 +161,7 @@ pub(crate) fn wall_contact(
     grain: &Grain,
     wall: &WallPoint,
     container: [DVec3; 2],
-    [elapsed, time_step]: [f64; 2],
+    elapsed: f64,
 ) -> Contact {
     let turning = grain.spin * grain.radius;
     let velocity = grain.velocity - container[0] - turning.cross(wall.normal);
@@ -181,7 +175,6 @@ pub(crate) fn wall_contact(
         acceleration,
         spins: [grain.spin, DVec3::ZERO],
         elapsed,
-        time_step,
         mobility: DMat3::ZERO,
     }
 }
@@ -204,12 +197,6 @@ impl<C> Room<C> {
 }
 
 impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
-    /// Time since memories were advanced, and the length of the step, s.
-    #[inline(always)]
-    pub(crate) fn times(&self) -> [f64; 2] {
-        [self.elapsed, self.time_step]
-    }
-
     /// The particle in a slot.
     #[inline(always)]
     pub(crate) fn grain(&self, slot: usize) -> Grain {

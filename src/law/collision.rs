@@ -3,7 +3,7 @@
 use glam::{DVec3, dvec3};
 
 use super::ContactLaw;
-use crate::contact::{Bodies, Body, Contact};
+use crate::contact::{Bodies, Body, Contact, ContactForce, Edge};
 use crate::damper::StepError;
 use crate::integrator::{Columns, Integrator, Motions, Stage, System};
 use crate::material::{Interaction, Material, Materials};
@@ -117,8 +117,17 @@ impl<'l, L: ContactLaw> Collision<'l, L> {
         contact.acceleration = first - second - turning;
         contact.spins = [self.spin[0], *self.spin.get(1).unwrap_or(&DVec3::ZERO)];
         contact.elapsed = elapsed;
-        contact.time_step = self.time_step;
         contact
+    }
+
+    fn answer(&self, contact: &Contact, edge: Edge) -> (ContactForce, L::Memory) {
+        let (law, kind, memory) = (self.law, &self.coefficients, &self.memory);
+        let speed = contact.approach_speed();
+        if law.has_edges() && Edge::is_near(contact.overlap, speed, self.time_step) {
+            return law.at_edge(kind, contact, memory, &edge);
+        }
+        let answer = law.force(kind, contact, memory);
+        (answer, law.advance(kind, contact, memory))
     }
 
     pub(super) fn kinetic_energy(&self) -> f64 {
@@ -178,11 +187,13 @@ impl<L: ContactLaw> System for Collision<'_, L> {
 
     fn evaluate(&mut self, elapsed: f64, stage: Stage) -> Result<(), StepError> {
         let contact = self.contact(elapsed);
+        let edge = Edge::new(self.time_step, contact.acceleration.dot(contact.normal));
         self.acceleration.fill(DVec3::ZERO);
         self.spin_rate.fill(DVec3::ZERO);
         let touching = contact.overlap > 0.0;
+        let mut advanced = L::Memory::default();
         if touching {
-            let answer = self.law.force(&self.coefficients, &contact, &self.memory);
+            let (answer, memory) = self.answer(&contact, edge);
             let force = answer.normal * contact.normal + answer.tangential;
             let signs = [1.0, -1.0];
             for (n, sign) in signs.into_iter().enumerate().take(self.position.len()) {
@@ -192,16 +203,13 @@ impl<L: ContactLaw> System for Collision<'_, L> {
                 self.spin_rate[n] =
                     (torque + sign * answer.couple) / (0.4 * mass * radius * radius);
             }
+            advanced = memory;
             self.peak.0 = self.peak.0.max(contact.overlap);
             self.peak.1 = self.peak.1.max(answer.normal);
         }
         if stage == Stage::End {
             self.touching = touching;
-            self.memory = if touching {
-                self.law.advance(&self.coefficients, &contact, &self.memory)
-            } else {
-                L::Memory::default()
-            };
+            self.memory = advanced;
         }
         Ok(())
     }

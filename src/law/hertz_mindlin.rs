@@ -3,7 +3,7 @@ use glam::DVec3;
 use super::friction::{PART_PER_STEP, Rolling, SLIP_MOBILITY, share};
 use super::normal::{Normal, NormalCoefficients, NormalForce, strict_law};
 use super::{ContactLaw, LawError};
-use crate::contact::{Bodies, Contact, ContactForce, Stored};
+use crate::contact::{Bodies, Contact, ContactForce, Edge, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::Materials;
 
@@ -179,6 +179,29 @@ impl ContactLaw for HertzMindlin {
             load,
             root: normal.root,
         }
+    }
+
+    #[inline]
+    fn has_edges(&self) -> bool {
+        true
+    }
+
+    fn at_edge(
+        &self,
+        coefficients: &Coefficients,
+        contact: &Contact,
+        memory: &TangentialSpring,
+        edge: &Edge,
+    ) -> (ContactForce, TangentialSpring) {
+        let normal = self.normal.at_edge(&coefficients.normal, contact, edge);
+        let Tangential { load, force } = self.tangential(coefficients, contact, &normal, memory);
+        let answer = ContactForce {
+            normal: normal.force,
+            tangential: force,
+            couple: coefficients.rolling.couple(contact, normal.force.max(0.0)),
+        };
+        let root = normal.root;
+        (answer, TangentialSpring { load, root })
     }
 
     fn stored(

@@ -1,7 +1,7 @@
 use super::friction::{Friction, Grip};
 use super::normal::{NormalCoefficients, NormalForce, strict_law};
 use super::{ContactLaw, LawError};
-use crate::contact::{Bodies, Contact, ContactForce, Stored};
+use crate::contact::{Bodies, Contact, ContactForce, Edge, Stored};
 use crate::material::Materials;
 
 /// The strict law of the paper: Hertz's spring with damping along the normal, sliding friction
@@ -86,6 +86,17 @@ impl HertzTsuji {
         self.friction = friction;
         self
     }
+
+    /// The force whose normal part is `normal` (N).
+    #[inline(always)]
+    fn sliding(&self, coefficients: &Coefficients, contact: &Contact, normal: f64) -> ContactForce {
+        let pressing = normal.max(0.0);
+        ContactForce {
+            normal,
+            tangential: self.friction.force(&coefficients.grip, contact, pressing),
+            couple: coefficients.grip.rolling.couple(contact, pressing),
+        }
+    }
 }
 
 strict_law!(HertzTsuji);
@@ -107,12 +118,23 @@ impl ContactLaw for HertzTsuji {
     #[inline(always)]
     fn force(&self, coefficients: &Coefficients, contact: &Contact, (): &()) -> ContactForce {
         let normal = self.normal.at(&coefficients.normal, contact).force;
-        let pressing = normal.max(0.0);
-        ContactForce {
-            normal,
-            tangential: self.friction.force(&coefficients.grip, contact, pressing),
-            couple: coefficients.grip.rolling.couple(contact, pressing),
-        }
+        self.sliding(coefficients, contact, normal)
+    }
+
+    #[inline]
+    fn has_edges(&self) -> bool {
+        true
+    }
+
+    fn at_edge(
+        &self,
+        coefficients: &Coefficients,
+        contact: &Contact,
+        (): &(),
+        edge: &Edge,
+    ) -> (ContactForce, ()) {
+        let normal = self.normal.at_edge(&coefficients.normal, contact, edge);
+        (self.sliding(coefficients, contact, normal.force), ())
     }
 
     fn stored(&self, coefficients: &Coefficients, contact: &Contact, (): &()) -> Stored {

@@ -4,7 +4,7 @@ use super::LawError;
 use super::damping::{Damping, Ending};
 use super::edge::Power;
 use super::hertz::ElasticImpact;
-use crate::contact::{Bodies, Contact, Stored};
+use crate::contact::{Bodies, Contact, Edge, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::{Interaction, Material, MaterialId, Materials};
 
@@ -187,26 +187,11 @@ impl NormalForce {
         };
         let resistance = coefficients.damping * shape;
         let spring = coefficients.stiffness * overlap * root;
-        let approach = contact.approach_speed();
-        let mut force = self.ended(spring + resistance * approach);
-        if overlap < 2.0 * contact.time_step * approach.abs() {
-            // The mean speed since the step began, which is that of touch if they touched since; before
-            // its end they may have touched in the step before, and the speed at its start is nearer.
-            let part = if contact.elapsed < contact.time_step {
-                1.0
-            } else {
-                0.5
-            };
-            let gained = part * contact.elapsed * contact.acceleration.dot(contact.normal);
-            let coming = approach + gained;
-            let parting = approach < 0.0;
-            let sample = [overlap, coming, contact.time_step, force];
-            force = self.at_edge(coefficients, sample, parting);
-        }
+        let force = spring + resistance * contact.approach_speed();
         Normal {
             root,
             resistance,
-            force,
+            force: self.ended(force),
         }
     }
 
@@ -218,31 +203,42 @@ impl NormalForce {
         }
     }
 
-    /// The force where the bodies may have met or may part within a step h of now, `force` by the
-    /// formula, with what evaluations h apart miss made up for ([`edge`](super::edge)).
-    #[cold]
-    fn at_edge(
+    /// The normal force where the bodies may have met or may part within a step h of now: with what
+    /// evaluations h apart miss made up for ([`edge`](super::edge)).
+    pub(super) fn at_edge(
         &self,
         coefficients: &NormalCoefficients,
-        [overlap, coming, h, force]: [f64; 4],
-        parting: bool,
-    ) -> f64 {
-        let (k, c) = (coefficients.stiffness, coefficients.damping);
+        contact: &Contact,
+        edge: &Edge,
+    ) -> Normal {
+        let mut normal = self.at(coefficients, contact);
+        let NormalCoefficients {
+            stiffness,
+            damping,
+            mobility,
+        } = *coefficients;
+        let (overlap, h) = (contact.overlap, edge.time_step);
+        // The mean speed since the step began, which is that of touch if they touched since; before its
+        // end they may have touched in the step before, and the speed at its start is nearer.
+        let back = if contact.elapsed < h { 1.0 } else { 0.5 } * contact.elapsed;
+        let coming = contact.approach_speed() + back * edge.acceleration;
         let way = coming * h;
         if overlap < way * JUST_NOW {
             let (part, power) = (overlap / way, self.damping.power());
-            let spring = k * Power::ThreeHalves.of(way) * Power::ThreeHalves.sampled(part);
-            return spring + c * coming * power.of(way) * power.sampled(part);
+            let spring = stiffness * Power::ThreeHalves.of(way) * Power::ThreeHalves.sampled(part);
+            normal.force = spring + damping * coming * power.of(way) * power.sampled(part);
+            return normal;
         }
         // A spring ends as it sets in. Where damping ends, the force is smooth if it never pulls, and
         // a pull slows the bodies so much that the end cannot be foretold.
-        let way = (force * h * coefficients.mobility - coming) * h;
-        if parting && overlap < way {
+        let way = (normal.force * h * mobility - coming) * h;
+        if contact.approach_speed() < 0.0 && overlap < way {
             let part = overlap / way;
             let more = Power::ThreeHalves.sampled(part) - Power::ThreeHalves.of(part);
-            return self.ended(force + k * Power::ThreeHalves.of(way) * more);
+            let spring = stiffness * Power::ThreeHalves.of(way) * more;
+            normal.force = self.ended(normal.force + spring);
         }
-        force
+        normal
     }
 
     /// Hertz's force and energy, 2/5 k d^(5/2); `tangential` is the energy (J) of the stretch.
