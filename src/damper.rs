@@ -128,6 +128,8 @@ where
         let impulsive = self.engine.world.law.evaluation() != Evaluation::EveryStage;
         if impulsive {
             self.engine.strike(dt, observer)?;
+        } else {
+            self.engine.world.time_step = dt;
         }
         let mut step = Step {
             begin: self.clock.time(),

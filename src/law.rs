@@ -4,13 +4,14 @@ mod restitution;
 
 pub use restitution::{RestitutionCoefficients, RestitutionImpulse};
 
-use crate::contact::{Bodies, Contact, ContactForce, Stored};
+use crate::contact::{Bodies, Contact, ContactForce, Edge, Stored};
 use crate::error::ValueError;
 use crate::material::MaterialId;
 
 #[cfg(test)]
 mod collision;
 mod damping;
+mod edge;
 mod friction;
 mod hertz;
 mod hertz_mindlin;
@@ -85,7 +86,9 @@ pub enum LawError {
 ///    by [`Contact::elapsed`] (the paper's Eq. 12).
 /// 5. [`time_step_limit`](Self::time_step_limit) is the longest step that the law can bear; a builder
 ///    refuses a longer one.
-/// 6. [`stored`](Self::stored) tells energy that a contact holds from energy that it has lost. It is
+/// 6. Forces are taken step by step, and what they miss of an impact where it begins and ends between
+///    two of them can be made up for: see [`at_edge`](Self::at_edge).
+/// 7. [`stored`](Self::stored) tells energy that a contact holds from energy that it has lost. It is
 ///    asked only by observers; by default all of the force's work counts as lost, or as a negative
 ///    loss where it is given back.
 ///
@@ -147,6 +150,30 @@ pub trait ContactLaw {
         memory: &Self::Memory,
     ) -> Self::Memory {
         *memory
+    }
+
+    /// Whether [`at_edge`](Self::at_edge) is to be asked.
+    #[inline]
+    fn has_edges(&self) -> bool {
+        false
+    }
+
+    /// The force, and what the contact remembers, where the bodies may have met or may part within
+    /// the step ([`Edge::is_near`]). Asked instead of [`force`](Self::force) and
+    /// [`advance`](Self::advance) if the law [has edges](Self::has_edges) to be mended: a contact sets in between two
+    /// evaluations, and if its force starts like a power p of time they miss an impulse of the power
+    /// p + 1 of the step.
+    fn at_edge(
+        &self,
+        coefficients: &Self::Coefficients,
+        contact: &Contact,
+        memory: &Self::Memory,
+        _edge: &Edge,
+    ) -> (ContactForce, Self::Memory) {
+        (
+            self.force(coefficients, contact, memory),
+            self.advance(coefficients, contact, memory),
+        )
     }
 
     /// What the contact holds and can give back, with what it remembers at the end of the step.
@@ -217,6 +244,21 @@ macro_rules! forward_law {
             #[inline]
             fn has_couple(&self, coefficients: &Self::Coefficients) -> bool {
                 (**self).has_couple(coefficients)
+            }
+
+            #[inline]
+            fn has_edges(&self) -> bool {
+                (**self).has_edges()
+            }
+
+            fn at_edge(
+                &self,
+                coefficients: &Self::Coefficients,
+                contact: &Contact,
+                memory: &Self::Memory,
+                edge: &Edge,
+            ) -> (ContactForce, Self::Memory) {
+                (**self).at_edge(coefficients, contact, memory, edge)
             }
 
             fn stored(

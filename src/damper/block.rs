@@ -103,7 +103,8 @@ impl<L: ContactLaw> Block<L> {
         let [pairs, walls] = memory;
         self.pairs.finish(scene.stamp, pairs, pair);
         self.border.finish(scene.stamp, pairs, pair);
-        self.walls.finish(scene.stamp, walls, |slot, wall| (slot, wall));
+        self.walls
+            .finish(scene.stamp, walls, |slot, wall| (slot, wall));
         self.parcels.reserve(self.border.candidates());
     }
 
@@ -395,6 +396,10 @@ fn answer_pairs<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
     });
     let only = scene.coefficients.only_pair();
     chunk.answer::<true, END>(scene.law, only, kinds, scene.elapsed);
+    if scene.law.has_edges() {
+        let acceleration = |n: usize| acceleration_of_pair(scene, bodies[n]);
+        chunk.mend_edges::<true, END>(scene.law, only, scene.moment(), acceleration);
+    }
     if END {
         list.keep(run, scene.stamp.wrapping_add(1), chunk.advanced());
     }
@@ -417,9 +422,23 @@ fn answer_walls<C: Cavity, L: ContactLaw, const END: bool>(
     });
     let only = scene.coefficients.only_wall();
     chunk.answer::<false, END>(scene.law, only, kinds, scene.elapsed);
+    if scene.law.has_edges() {
+        let acceleration = |n: usize| vector(&scene.acceleration, bodies[n][0] as usize);
+        chunk.mend_edges::<false, END>(scene.law, only, scene.moment(), acceleration);
+    }
     if END {
         list.keep(run, scene.stamp.wrapping_add(1), chunk.advanced());
     }
+}
+
+/// How the centre of the first body was accelerated relative to that of the second when forces were
+/// evaluated last, in m/s^2.
+fn acceleration_of_pair<C: Cavity, L: ContactLaw>(
+    scene: &Scene<'_, C, L>,
+    bodies: [u32; 2],
+) -> DVec3 {
+    let [first, second] = bodies.map(|slot| vector(&scene.acceleration, slot as usize));
+    first - second
 }
 
 /// Tells `observer` of the pairs in `chunk`, which are in `list`.
@@ -437,14 +456,16 @@ fn report_pairs<C: Cavity, L: ContactLaw>(
         let prepared = list.prepared(place);
         let (first, second) = (scene.species[slot], scene.species[other]);
         let kind = scene.coefficients.pair(first, second, prepared);
-        let (contact, force) = chunk.answered::<true>(scene.law, &kind, n, scene.elapsed);
+        let acceleration = acceleration_of_pair(scene, bodies);
+        let (contact, force, memory) =
+            chunk.ask::<true>(scene.law, &kind, n, scene.moment(), acceleration);
         observer.contact(&ContactEvent {
             particle: scene.number[slot] as usize,
             partner: Partner::Particle(scene.number[other] as usize),
             cavity: scene.rooms.partition_point(|room| room.slots.end <= slot),
             contact,
             force,
-            stored: scene.law.stored(&kind, &contact, &chunk.advanced()[n]),
+            stored: scene.law.stored(&kind, &contact, &memory),
             working_velocity: contact.velocity,
             working_spin: contact.spins[0] - contact.spins[1],
         });
@@ -463,14 +484,16 @@ fn report_walls<C: Cavity, L: ContactLaw>(
     for (n, [slot, wall]) in list.contacts.bodies()[run].iter().enumerate() {
         let (slot, wall) = (*slot as usize, *wall);
         let kind = scene.coefficients.wall(scene.species[slot]);
-        let (contact, force) = chunk.answered::<false>(scene.law, kind, n, scene.elapsed);
+        let acceleration = vector(&scene.acceleration, slot);
+        let (contact, force, memory) =
+            chunk.ask::<false>(scene.law, kind, n, scene.moment(), acceleration);
         observer.contact(&ContactEvent {
             particle: scene.number[slot] as usize,
             partner: Partner::Wall(wall - scene.room_of_wall(wall).first_wall),
             cavity: scene.cavity_of_wall(wall),
             contact,
             force,
-            stored: scene.law.stored(kind, &contact, &chunk.advanced()[n]),
+            stored: scene.law.stored(kind, &contact, &memory),
             working_velocity: contact.velocity,
             working_spin: contact.spins[0],
         });

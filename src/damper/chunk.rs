@@ -11,7 +11,7 @@ use glam::{DMat3, DVec3};
 
 use super::scene::Scene;
 use crate::cavity::Cavity;
-use crate::contact::{Contact, ContactForce};
+use crate::contact::{Contact, ContactForce, Edge};
 use crate::law::ContactLaw;
 
 /// How many contacts are side by side at the most.
@@ -47,6 +47,15 @@ impl Lanes {
     }
 }
 
+/// When in a step contacts are evaluated.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moment {
+    /// Time since memories were advanced, s.
+    pub(crate) elapsed: f64,
+    /// Length of the step, s; zero before the first.
+    pub(crate) time_step: f64,
+}
+
 /// Up to [`CHUNK`] contacts, all of pairs or all with walls, and what the law answers. With `PLANAR`
 /// all of them lie in the plane z = 0.
 #[derive(Debug, Clone)]
@@ -61,6 +70,8 @@ pub(crate) struct Chunk<L: ContactLaw> {
     /// Zero for a wall.
     radii: [Column; 2],
     overlap: Column,
+    /// Rate of overlap, m/s.
+    approach: Column,
     kinds: Vec<L::Coefficients>,
     memory: [L::Memory; CHUNK],
     advanced: [L::Memory; CHUNK],
@@ -77,6 +88,7 @@ impl<L: ContactLaw> Default for Chunk<L> {
             spins: [Lanes::ZERO; 2],
             radii: [[0.0; CHUNK]; 2],
             overlap: [0.0; CHUNK],
+            approach: [0.0; CHUNK],
             kinds: Vec::with_capacity(CHUNK),
             memory: [L::Memory::default(); CHUNK],
             advanced: [L::Memory::default(); CHUNK],
@@ -240,7 +252,13 @@ impl<L: ContactLaw> Chunk<L> {
             self.advanced[n] = law.advance(kind, &contact, &memory);
         }
         self.overlap[n] = contact.overlap;
-        let normal = contact.normal;
+        self.approach[n] = contact.approach_speed();
+        self.note::<COUPLE>(n, contact.normal, &answer);
+    }
+
+    /// Notes what an answer does to the two bodies.
+    #[inline(always)]
+    fn note<const COUPLE: bool>(&mut self, n: usize, normal: DVec3, answer: &ContactForce) {
         self.push.set(n, normal * answer.normal + answer.tangential);
         let turn = answer.tangential.cross(normal);
         let [first, second] = self.radii.each_ref().map(|radii| turn * radii[n]);
@@ -251,6 +269,51 @@ impl<L: ContactLaw> Chunk<L> {
             self.torques[0].set(n, first);
             self.torques[1].set(n, second);
         }
+    }
+
+    /// Has `law` answer once more where bodies may have met or may part within the step.
+    /// `acceleration` is that of a contact's first centre relative to its second body, as it was
+    /// evaluated last (m/s^2).
+    pub(crate) fn mend_edges<const PAIRS: bool, const END: bool>(
+        &mut self,
+        law: &L,
+        only: Option<&L::Coefficients>,
+        moment: Moment,
+        acceleration: impl Fn(usize) -> DVec3,
+    ) {
+        for n in 0..self.count.min(CHUNK) {
+            if Edge::is_near(self.overlap[n], self.approach[n], moment.time_step) {
+                let kind = only.copied().unwrap_or_else(|| self.kinds[n]);
+                let (contact, answer, memory) =
+                    self.ask::<PAIRS>(law, &kind, n, moment, acceleration(n));
+                self.note::<true>(n, contact.normal, &answer);
+                if END {
+                    self.advanced[n] = memory;
+                }
+            }
+        }
+    }
+
+    /// A contact, the answer of the `law` with coefficients `kind`, and what the contact remembers
+    /// at the end of the step.
+    pub(crate) fn ask<const PAIRS: bool>(
+        &self,
+        law: &L,
+        kind: &L::Coefficients,
+        n: usize,
+        moment: Moment,
+        acceleration: DVec3,
+    ) -> (Contact, ContactForce, L::Memory) {
+        let Moment { elapsed, time_step } = moment;
+        let (contact, memory) = (self.contact::<PAIRS>(n, elapsed), &self.memory[n]);
+        let (overlap, approach) = (contact.overlap, contact.approach_speed());
+        if law.has_edges() && Edge::is_near(overlap, approach, time_step) {
+            let edge = Edge::new(time_step, acceleration.dot(contact.normal));
+            let (answer, memory) = law.at_edge(kind, &contact, memory, &edge);
+            return (contact, answer, memory);
+        }
+        let answer = law.force(kind, &contact, memory);
+        (contact, answer, law.advance(kind, &contact, memory))
     }
 
     /// Force on the first body of a contact, in N; the second feels the opposite.
@@ -269,18 +332,6 @@ impl<L: ContactLaw> Chunk<L> {
     #[inline(always)]
     pub(crate) const fn advanced(&self) -> &[L::Memory; CHUNK] {
         &self.advanced
-    }
-
-    /// A contact and the force that the law gave it, with coefficients `kind`.
-    pub(crate) fn answered<const PAIRS: bool>(
-        &self,
-        law: &L,
-        kind: &L::Coefficients,
-        n: usize,
-        elapsed: f64,
-    ) -> (Contact, ContactForce) {
-        let contact = self.contact::<PAIRS>(n, elapsed);
-        (contact, law.force(kind, &contact, &self.memory[n]))
     }
 
     /// The overlap of a contact in m.

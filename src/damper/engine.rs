@@ -57,6 +57,8 @@ pub(crate) struct Scratch<L: ContactLaw> {
     pub(crate) memory: [Vec<Remembered<L::Memory>>; 2],
     /// Whether the candidates may still be used.
     pub(crate) listed: bool,
+    /// Where forces are summed up, in turns with the column of accelerations, if both are wanted.
+    force: Vectors,
     /// Velocities, spins and rates of the mount after the impulses so far.
     pub(crate) velocity: Vec<DVec3>,
     pub(crate) spin: Vec<DVec3>,
@@ -85,6 +87,7 @@ impl<L: ContactLaw> Scratch<L> {
             + size_of::<u32>() * (self.rows.capacity() + self.partners.capacity())
             + size_of::<Remembered<L::Memory>>() * remembered
             + self.reference.reserved_bytes()
+            + self.force.reserved_bytes()
             + self.proposals.reserved_bytes()
     }
 }
@@ -99,6 +102,7 @@ impl<L: ContactLaw> Default for Scratch<L> {
             local: Vec::new(),
             memory: [Vec::new(), Vec::new()],
             listed: false,
+            force: Vectors::default(),
             velocity: Vec::new(),
             spin: Vec::new(),
             rates: Vec::new(),
@@ -195,8 +199,17 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         elapsed: f64,
         observer: &mut O,
     ) -> Result<(), StepError> {
-        // Forces are summed up where the accelerations will be.
-        let mut force = std::mem::take(&mut self.particles.acceleration);
+        // Forces are summed up where the accelerations will be. A law that mends the edges of
+        // contacts wants to see those of the last evaluation besides.
+        let mends = self.world.law.has_edges();
+        let mut force = if mends {
+            std::mem::take(&mut self.scratch.force)
+        } else {
+            std::mem::take(&mut self.particles.acceleration)
+        };
+        if force.len() != self.particles.len() {
+            force.clone_from(&self.particles.acceleration);
+        }
         let mut torque = std::mem::take(&mut self.particles.angular_acceleration);
         let scene = self.world.scene(&self.particles, elapsed);
         let mut rests = [force.components_mut(), torque.components_mut()];
@@ -223,7 +236,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             }
         }
         let finite = force.is_finite() && torque.is_finite();
-        self.particles.acceleration = force;
+        let before = std::mem::replace(&mut self.particles.acceleration, force);
+        if mends {
+            self.scratch.force = before;
+        }
         self.particles.angular_acceleration = torque;
 
         self.wall_loads.fill(WallLoad::default());

@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use glam::{DMat3, DVec3};
 
+use super::chunk::Moment;
 use super::coefficients::Coefficients;
 use super::particles::Particles;
 use super::vectors::{Components, vector};
@@ -42,6 +43,8 @@ pub(crate) struct World<C, L: ContactLaw> {
     pub(crate) reach: f64,
     /// Number of the last accepted step; it wraps.
     pub(crate) stamp: u32,
+    /// Length of the step, s; zero before the first one.
+    pub(crate) time_step: f64,
 }
 
 impl<C: Cavity, L: ContactLaw> World<C, L> {
@@ -55,10 +58,12 @@ impl<C: Cavity, L: ContactLaw> World<C, L> {
             position: particles.position.components(),
             velocity: particles.velocity.components(),
             spin: particles.spin.components(),
+            acceleration: particles.acceleration.components(),
             radius: &particles.radius,
             species: &particles.species,
             number: &particles.number,
             elapsed,
+            time_step: self.time_step,
             stamp: self.stamp,
             planar: self.planar(),
         }
@@ -89,11 +94,15 @@ pub(crate) struct Scene<'a, C, L: ContactLaw> {
     pub(crate) position: Components<'a>,
     pub(crate) velocity: Components<'a>,
     pub(crate) spin: Components<'a>,
+    /// As they were evaluated last, if the law has edges to be mended; else empty.
+    pub(crate) acceleration: Components<'a>,
     pub(crate) radius: &'a [f64],
     pub(crate) species: &'a [u32],
     pub(crate) number: &'a [u32],
     /// Time since memories were advanced, s.
     pub(crate) elapsed: f64,
+    /// Length of the step, s.
+    pub(crate) time_step: f64,
     /// Number of the last accepted step.
     pub(crate) stamp: u32,
     /// Whether everything moves in the plane z = 0.
@@ -190,6 +199,15 @@ impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
             velocity: vector(&self.velocity, slot),
             spin: vector(&self.spin, slot),
             radius: self.radius[slot],
+        }
+    }
+
+    /// When in the step this is.
+    #[inline(always)]
+    pub(crate) const fn moment(&self) -> Moment {
+        Moment {
+            elapsed: self.elapsed,
+            time_step: self.time_step,
         }
     }
 

@@ -3,7 +3,8 @@
 //! What to check before a number is believed, in the order of what goes wrong most often.
 //!
 //! 1. **The time step.** Halve it; the number should stay. A builder without a
-//!    [`time_step`](crate::Builder::time_step) takes half of what the law bears.
+//!    [`time_step`](crate::Builder::time_step) takes half of what the law bears. What a step is worth
+//!    under a strict law is said [below](#steps-to-a-contact).
 //! 2. **The overlaps.** A bed that is pressed into itself by more than a few hundredths of a radius is
 //!    too soft or stepped too coarsely: [`Damper::largest_overlap`](crate::Damper::largest_overlap).
 //! 3. **The energy.** An [`EnergyLedger`](crate::EnergyLedger) follows where it goes; what it cannot
@@ -39,6 +40,33 @@
 //! let lost = before - damper.momentum() + weight;
 //! assert!((received - lost).length() < 1e-12);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Steps to a contact
+//! A strict law has to follow every impact. How long one lasts the law says
+//! ([`elastic_impact`](crate::HertzTsuji::elastic_impact)); it depends little on the speed, as its
+//! power -1/5. What a number of steps to a contact is worth is how far the restitution comes out from
+//! the one asked for, for any from 0.3 to 0.95, wherever in a step the bodies first touch:
+//!
+//! | steps to a contact | [`VelocityVerlet`](crate::VelocityVerlet) | [`RungeKutta4`](crate::RungeKutta4) |
+//! |---|---|---|
+//! | 6 (the paper's) | 0.06 | 0.03 |
+//! | 8 (the default) | 0.035 | 0.02 |
+//! | 20 | 0.006 | 0.0015 |
+//! | 50 | 0.0009 | 0.0002 |
+//! | 100 | 0.0003 | 0.00005 |
+//!
+//! The same error is made in each impact of the same speed on average, so it counts like a slightly
+//! lower restitution. A step for impacts of up to 0.5 m/s that are right to half a hundredth:
+//!
+//! ```
+//! use particle_damper::{Bodies, Body, HertzTsuji, Material, Materials};
+//!
+//! let law = HertzTsuji::new(Material::acrylic());
+//! let grain = Body::sphere(3e-3, 2e-4, Materials::FIRST);
+//! let time_step = law.elastic_impact(&Bodies::new(grain, grain), 0.5)?.duration() / 20.0;
+//! assert!((time_step - 7.0e-6).abs() < 1e-8);
+//! # Ok::<(), particle_damper::LawError>(())
 //! ```
 //!
 //! What the crate itself is checked against, with sources and tolerances: `tests/validation/`. Which

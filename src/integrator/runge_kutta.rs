@@ -4,9 +4,9 @@ use crate::damper::StepError;
 /// The classical Runge-Kutta method of fourth order (the paper's): four evaluations a step, the
 /// last of which serves as the next step's first.
 ///
-/// Fourth order holds for mounts, free flight and contacts that last. An impact loses it where it sets
-/// in, as under [`VelocityVerlet`](super::VelocityVerlet): to 5/2 in an elastic Hertz contact, 3/2 with
-/// d^(1/2) damping, 5/4 with d^(1/4) damping.
+/// Fourth order holds for mounts, free flight and contacts that last. An impact is of second order, as
+/// under [`VelocityVerlet`](super::VelocityVerlet), with a tenth of its error at 100 steps to a contact
+/// and a half of it at six.
 #[derive(Debug, Clone, Default)]
 pub struct RungeKutta4 {
     translation: Tableau,

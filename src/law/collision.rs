@@ -3,7 +3,7 @@
 use glam::{DVec3, dvec3};
 
 use super::ContactLaw;
-use crate::contact::{Bodies, Body, Contact};
+use crate::contact::{Bodies, Body, Contact, ContactForce, Edge};
 use crate::damper::StepError;
 use crate::damper::vectors::{Axes, Vectors};
 use crate::integrator::{Columns, Integrator, Motions, Stage, System};
@@ -17,6 +17,7 @@ pub(super) struct Collision<'l, L: ContactLaw> {
     position: Vectors,
     pub(super) velocity: Vectors,
     acceleration: Vectors,
+    time_step: f64,
     pub(super) spin: Vectors,
     spin_rate: Vectors,
     pub(super) touching: bool,
@@ -76,6 +77,7 @@ impl<'l, L: ContactLaw> Collision<'l, L> {
             position: column(dvec3(0.0, height, 0.0)),
             velocity: column(velocity),
             acceleration: column(DVec3::ZERO),
+            time_step: 0.0,
             spin: column(spin),
             spin_rate: column(DVec3::ZERO),
             touching: true,
@@ -106,6 +108,16 @@ impl<'l, L: ContactLaw> Collision<'l, L> {
         contact
     }
 
+    fn answer(&self, contact: &Contact, edge: Edge) -> (ContactForce, L::Memory) {
+        let (law, kind, memory) = (self.law, &self.coefficients, &self.memory);
+        let speed = contact.approach_speed();
+        if law.has_edges() && Edge::is_near(contact.overlap, speed, self.time_step) {
+            return law.at_edge(kind, contact, memory, &edge);
+        }
+        let answer = law.force(kind, contact, memory);
+        (answer, law.advance(kind, contact, memory))
+    }
+
     pub(super) fn kinetic_energy(&self) -> f64 {
         let energy = |n: usize| {
             let Body { mass, radius, .. } = self.body(n);
@@ -122,6 +134,7 @@ impl<'l, L: ContactLaw> Collision<'l, L> {
 
     /// Steps until the bodies have parted; returns how long they touched.
     pub(super) fn run(&mut self, integrator: &mut impl Integrator, time_step: f64) -> f64 {
+        self.time_step = time_step;
         let mut steps = 0;
         while self.touching {
             integrator.step(self, time_step).unwrap();
@@ -162,11 +175,14 @@ impl<L: ContactLaw> System for Collision<'_, L> {
 
     fn evaluate(&mut self, elapsed: f64, stage: Stage) -> Result<(), StepError> {
         let contact = self.contact(elapsed);
+        let [ahead, behind] = [0, 1].map(|n| self.acceleration.get(n));
+        let edge = Edge::new(self.time_step, (ahead - behind).dot(contact.normal));
         self.acceleration.flat_mut().fill(0.0);
         self.spin_rate.flat_mut().fill(0.0);
         let touching = contact.overlap > 0.0;
+        let mut advanced = L::Memory::default();
         if touching {
-            let answer = self.law.force(&self.coefficients, &contact, &self.memory);
+            let (answer, memory) = self.answer(&contact, edge);
             let force = answer.normal * contact.normal + answer.tangential;
             let signs = [1.0, -1.0];
             for (n, sign) in signs.into_iter().enumerate().take(self.position.len()) {
@@ -177,16 +193,13 @@ impl<L: ContactLaw> System for Collision<'_, L> {
                 self.spin_rate
                     .set(n, torque / (0.4 * mass * radius * radius));
             }
+            advanced = memory;
             self.peak.0 = self.peak.0.max(contact.overlap);
             self.peak.1 = self.peak.1.max(answer.normal);
         }
         if stage == Stage::End {
             self.touching = touching;
-            self.memory = if touching {
-                self.law.advance(&self.coefficients, &contact, &self.memory)
-            } else {
-                L::Memory::default()
-            };
+            self.memory = advanced;
         }
         Ok(())
     }

@@ -1,3 +1,4 @@
+use super::edge::Power;
 use super::hertz::ElasticImpact;
 use crate::error::{Bound, ValueError};
 
@@ -82,6 +83,14 @@ impl Damping {
         match self {
             Self::Viscoelastic => number * (m * m * k * k * k / v).powf(0.2),
             Self::Tsuji => number * (m * k).sqrt(),
+        }
+    }
+
+    /// The power of the overlap that the force grows with.
+    pub(super) const fn power(self) -> Power {
+        match self {
+            Self::Viscoelastic => Power::Half,
+            Self::Tsuji => Power::Quarter,
         }
     }
 

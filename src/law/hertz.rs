@@ -79,7 +79,8 @@ impl ElasticImpact {
     }
 
     /// Contact duration T = 2.9432752 d/v = 3.2180655 (m*^2/(k^2 v))^(1/5) in s. It falls slowly
-    /// with speed. Twenty steps to a contact follow it well; see the law's limit for the fewest.
+    /// with speed. Twenty steps to a contact follow it well; [`guide::trust`](crate::guide::trust) says
+    /// what other numbers are worth, the law's limit is the fewest.
     #[must_use]
     pub fn duration(&self) -> f64 {
         DURATION * self.overlap() / self.speed

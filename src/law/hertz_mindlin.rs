@@ -3,7 +3,7 @@ use glam::DVec3;
 use super::friction::{PART_PER_STEP, Rolling, SLIP_MOBILITY, share};
 use super::normal::{Normal, NormalCoefficients, NormalForce, strict_law};
 use super::{ContactLaw, LawError, at_least, at_most};
-use crate::contact::{Bodies, Contact, ContactForce, Stored};
+use crate::contact::{Bodies, Contact, ContactForce, Edge, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::Materials;
 
@@ -33,7 +33,7 @@ const GREATEST_TURN: f64 = 1.25;
 /// one step.
 ///
 /// # Time step
-/// As for [`HertzTsuji`](crate::HertzTsuji), and short enough for the tangential oscillation, which
+/// As for [`HertzTsuji`](crate::HertzTsuji#time-step), and short enough for the tangential oscillation, which
 /// is quicker than the normal one by about sqrt 3 because it moves 2/7 m*: about two elevenths of a
 /// contact duration.
 #[derive(Debug, Clone, PartialEq)]
@@ -190,6 +190,32 @@ impl ContactLaw for HertzMindlin {
     #[inline]
     fn has_couple(&self, coefficients: &Coefficients) -> bool {
         coefficients.rolling.resists()
+    }
+
+    #[inline]
+    fn has_edges(&self) -> bool {
+        self.normal.mends_edges()
+    }
+
+    fn at_edge(
+        &self,
+        coefficients: &Coefficients,
+        contact: &Contact,
+        memory: &TangentialSpring,
+        edge: &Edge,
+    ) -> (ContactForce, TangentialSpring) {
+        let normal = self.normal.at_edge(&coefficients.normal, contact, edge);
+        let Tangential { load, slip, force } =
+            self.tangential(coefficients, contact, &normal, memory);
+        let answer = ContactForce {
+            normal: normal.force,
+            tangential: force,
+            couple: coefficients
+                .rolling
+                .couple(contact, at_least(normal.force, 0.0)),
+        };
+        let root = normal.root;
+        (answer, TangentialSpring { load, slip, root })
     }
 
     fn stored(

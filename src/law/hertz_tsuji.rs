@@ -1,7 +1,7 @@
 use super::friction::{Friction, Grip};
 use super::normal::{NormalCoefficients, NormalForce, strict_law};
 use super::{ContactLaw, LawError, at_least};
-use crate::contact::{Bodies, Contact, ContactForce, Stored};
+use crate::contact::{Bodies, Contact, ContactForce, Edge, Stored};
 use crate::material::Materials;
 
 /// The strict law of the paper: Hertz's spring with damping along the normal, sliding friction
@@ -31,6 +31,18 @@ use crate::material::Materials;
 /// at most the reciprocal of the greatest damping rate, `c d^(1/2) / m*`: beyond, an explicit
 /// integrator amplifies what damping should take away. The second bound is the shorter one for
 /// restitutions under about a third.
+///
+/// Where damping is weak a contact takes `n = (4 / (1 - e^2))^(1/3)` steps at least, up to 50 for an
+/// elastic one: a step can add `4 / n^3` of its energy to an impact at the very most, which damping
+/// then takes away again. An elastic ball keeps its energy to 1e-4 over a thousand bounces.
+///
+/// Bodies meet and part in the midst of a step. What evaluations a step apart miss of the force there
+/// is made up for by the first of them (by the last, of the spring), so that impacts are of second
+/// order in the step, and a step as coarse as above leaves the energy right.
+///
+/// # Walls
+/// A wall counts as infinitely heavy, also where the container yields: one of mass `M` lowers the
+/// restitution of a particle of mass `m` as damping `(1 + m/M)^(1/2)` times as strong would.
 ///
 /// ```
 /// use particle_damper::{Bodies, Body, HertzTsuji, Material, Materials};
@@ -74,6 +86,17 @@ impl HertzTsuji {
         self.friction = friction;
         self
     }
+
+    /// The force whose normal part is `normal` (N).
+    #[inline(always)]
+    fn sliding(&self, coefficients: &Coefficients, contact: &Contact, normal: f64) -> ContactForce {
+        let pressing = at_least(normal, 0.0);
+        ContactForce {
+            normal,
+            tangential: self.friction.force(&coefficients.grip, contact, pressing),
+            couple: coefficients.grip.rolling.couple(contact, pressing),
+        }
+    }
 }
 
 strict_law!(HertzTsuji);
@@ -95,12 +118,23 @@ impl ContactLaw for HertzTsuji {
     #[inline(always)]
     fn force(&self, coefficients: &Coefficients, contact: &Contact, (): &()) -> ContactForce {
         let normal = self.normal.at(&coefficients.normal, contact).force;
-        let pressing = at_least(normal, 0.0);
-        ContactForce {
-            normal,
-            tangential: self.friction.force(&coefficients.grip, contact, pressing),
-            couple: coefficients.grip.rolling.couple(contact, pressing),
-        }
+        self.sliding(coefficients, contact, normal)
+    }
+
+    #[inline]
+    fn has_edges(&self) -> bool {
+        self.normal.mends_edges()
+    }
+
+    fn at_edge(
+        &self,
+        coefficients: &Coefficients,
+        contact: &Contact,
+        (): &(),
+        edge: &Edge,
+    ) -> (ContactForce, ()) {
+        let normal = self.normal.at_edge(&coefficients.normal, contact, edge);
+        (self.sliding(coefficients, contact, normal.force), ())
     }
 
     #[inline]

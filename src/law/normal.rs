@@ -1,16 +1,34 @@
 //! The normal force that the strict laws share.
 
 use super::damping::{Damping, Ending};
+use super::edge::Power;
 use super::hertz::ElasticImpact;
 use super::{LawError, at_least};
-use crate::contact::{Bodies, Contact, Stored};
+use crate::contact::{Bodies, Contact, Edge, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::{Interaction, Material, MaterialId, Materials};
 
-/// The most of a contact duration that one step may take. In a hexagonal packing as compressed as
-/// an impact at the reference speed, the fastest oscillation has sqrt 3 times the frequency of one
-/// contact; at a quarter, frequency times step is 1.75, under the 2 that Verlet's method bears.
-const PART_OF_CONTACT: f64 = 0.25;
+/// The fewest steps to a contact. In a hexagonal packing as compressed as an impact at the reference
+/// speed, the fastest oscillation has sqrt 3 times the frequency of one contact; with four, frequency
+/// times step is 1.75, under the 2 that Verlet's method bears.
+const FEWEST_STEPS: f64 = 4.0;
+
+/// What integration can add to the energy of an undamped impact in n steps, times n^3, from above: of
+/// bodies that meet one, two or three others, in any phase of the step, under both integrators.
+const GAIN: f64 = 4.0;
+
+/// Enough steps to a contact for any restitution: what an impact without damping can gain is below
+/// 4/50^3, and a thousand bounces of one ball change its energy by less than 1e-4.
+const ELASTIC_STEPS: f64 = 50.0;
+
+/// Bodies that just touched as the step began, to within rounding, have met in it.
+const JUST_NOW: f64 = 1.0 + 1e-6;
+
+/// The fewest steps to a contact in which damping takes more energy than integration can add.
+fn fewest_steps(restitution: f64) -> f64 {
+    let loss = 1.0 - restitution * restitution;
+    (GAIN / loss).cbrt().clamp(FEWEST_STEPS, ELASTIC_STEPS)
+}
 
 /// Hertz's spring with damping, for a table of materials.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +36,7 @@ pub(super) struct NormalForce {
     materials: Materials,
     damping: Damping,
     ending: Ending,
+    edges: bool,
     reference_speed: f64,
     /// The damping number of each ordered pair of materials, row by row.
     numbers: Vec<Result<f64, ValueError>>,
@@ -31,6 +50,8 @@ pub(super) struct NormalCoefficients {
     stiffness: f64,
     /// c in N s/m^(3/2) or N s/m^(5/4).
     damping: f64,
+    /// 1/m* in 1/kg.
+    mobility: f64,
 }
 
 /// The normal force at one instant, in parts.
@@ -52,6 +73,7 @@ impl NormalForce {
             materials,
             damping: Damping::default(),
             ending: Ending::default(),
+            edges: true,
             reference_speed: 1.0,
             numbers: Vec::new(),
             count,
@@ -67,6 +89,16 @@ impl NormalForce {
     pub(super) fn with_ending(mut self, ending: Ending) -> Self {
         self.ending = ending;
         self.numbered()
+    }
+
+    pub(super) const fn with_edges(mut self, edges: bool) -> Self {
+        self.edges = edges;
+        self
+    }
+
+    /// Whether what a step misses of a contact that begins or ends in it is made up for.
+    pub(super) const fn mends_edges(&self) -> bool {
+        self.edges
     }
 
     pub(super) fn with_reference_speed(mut self, speed: f64) -> Result<Self, ValueError> {
@@ -148,9 +180,11 @@ impl NormalForce {
         let coefficients = NormalCoefficients {
             stiffness: impact.stiffness(),
             damping,
+            mobility: 1.0 / impact.effective_mass(),
         };
         let rate = self.damping.greatest_rate(damping, &impact);
-        let longest = (PART_OF_CONTACT * impact.duration()).min(1.0 / rate);
+        let steps = fewest_steps(self.interaction(bodies)?.restitution);
+        let longest = (impact.duration() / steps).min(1.0 / rate);
         Ok((coefficients, longest))
     }
 
@@ -169,11 +203,54 @@ impl NormalForce {
         Normal {
             root,
             resistance,
-            force: match self.ending {
-                Ending::NeverPulling => at_least(force, 0.0),
-                Ending::PullingAllowed => force,
-            },
+            force: self.ended(force),
         }
+    }
+
+    #[inline(always)]
+    fn ended(&self, force: f64) -> f64 {
+        match self.ending {
+            Ending::NeverPulling => at_least(force, 0.0),
+            Ending::PullingAllowed => force,
+        }
+    }
+
+    /// The normal force where the bodies may have met or may part within a step h of now: with what
+    /// evaluations h apart miss made up for ([`edge`](super::edge)).
+    pub(super) fn at_edge(
+        &self,
+        coefficients: &NormalCoefficients,
+        contact: &Contact,
+        edge: &Edge,
+    ) -> Normal {
+        let mut normal = self.at(coefficients, contact);
+        let NormalCoefficients {
+            stiffness,
+            damping,
+            mobility,
+        } = *coefficients;
+        let (overlap, h) = (contact.overlap, edge.time_step);
+        // The mean speed since the step began, which is that of touch if they touched since; before its
+        // end they may have touched in the step before, and the speed at its start is nearer.
+        let back = if contact.elapsed < h { 1.0 } else { 0.5 } * contact.elapsed;
+        let coming = contact.approach_speed() + back * edge.acceleration;
+        let way = coming * h;
+        if overlap < way * JUST_NOW {
+            let (part, power) = (overlap / way, self.damping.power());
+            let spring = stiffness * Power::ThreeHalves.of(way) * Power::ThreeHalves.sampled(part);
+            normal.force = spring + damping * coming * power.of(way) * power.sampled(part);
+            return normal;
+        }
+        // A spring ends as it sets in. Where damping ends, the force is smooth if it never pulls, and
+        // a pull slows the bodies so much that the end cannot be foretold.
+        let way = (normal.force * h * mobility - coming) * h;
+        if contact.approach_speed() < 0.0 && overlap < way {
+            let part = overlap / way;
+            let more = Power::ThreeHalves.sampled(part) - Power::ThreeHalves.of(part);
+            let spring = stiffness * Power::ThreeHalves.of(way) * more;
+            normal.force = self.ended(normal.force + spring);
+        }
+        normal
     }
 
     /// Hertz's force and energy, 2/5 k d^(5/2); `tangential` is the energy (J) of the stretch.
@@ -203,6 +280,15 @@ macro_rules! strict_law {
             #[must_use]
             pub fn ending(mut self, ending: $crate::law::Ending) -> Self {
                 self.normal = self.normal.with_ending(ending);
+                self
+            }
+
+            /// The same law, making up for what steps miss where a contact begins and ends between
+            /// two of them, or not. It does unless told otherwise: impacts are then of second order
+            /// in the step. Without it a step of a dense bed costs a fifth less.
+            #[must_use]
+            pub fn edge_correction(mut self, wanted: bool) -> Self {
+                self.normal = self.normal.with_edges(wanted);
                 self
             }
 

@@ -3,7 +3,7 @@
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::{
     AllPairs, BuildError, Builder, ContactLaw, Cuboid, Damper, Driven, HertzMindlin, HertzTsuji,
-    Particle, RestitutionImpulse, VelocityVerlet,
+    Integrator, Particle, RestitutionImpulse, RungeKutta4, VelocityVerlet,
 };
 
 use super::Form;
@@ -38,13 +38,15 @@ pub(crate) enum Target {
     Wall,
     /// Particles that touch one another in a row across the line of impact.
     Particles(usize),
+    /// As many in a line along it.
+    Line(usize),
 }
 
 /// Builds with `part` of the longest step that the law accepts.
-fn with_part<L: ContactLaw + Clone>(
-    make: impl Fn() -> Builder<Cuboid, L, Driven, AllPairs, VelocityVerlet>,
+fn with_part<L: ContactLaw + Clone, I: Integrator>(
+    make: impl Fn() -> Builder<Cuboid, L, Driven, AllPairs, I>,
     part: f64,
-) -> Damper<Cuboid, L, Driven, AllPairs, VelocityVerlet> {
+) -> Damper<Cuboid, L, Driven, AllPairs, I> {
     let limit = match make().time_step(1e9).build() {
         Err(BuildError::TimeStepTooLong { limit, .. }) => limit,
         other => panic!("a step of 1e9 s is too long: {:?}", other.err()),
@@ -53,7 +55,12 @@ fn with_part<L: ContactLaw + Clone>(
 }
 
 /// Gain of kinetic energy, over what there was, in an impact.
-fn gain_under<L: ContactLaw + Clone>(law: &L, throw: &Throw, target: Target) -> f64 {
+fn gain_under<L: ContactLaw + Clone, I: Integrator + Clone>(
+    law: &L,
+    integrator: I,
+    throw: &Throw,
+    target: Target,
+) -> f64 {
     let first = paper_particle();
     let radius = first.radius * throw.ratio.cbrt();
     let side = 60.0 * first.radius.max(radius);
@@ -69,6 +76,15 @@ fn gain_under<L: ContactLaw + Clone>(law: &L, throw: &Throw, target: Target) -> 
             Target::Wall => {
                 let height = first.radius + gap;
                 bodies.push(first.at(dvec3(centre.x, height, centre.z)));
+            }
+            Target::Line(count) => {
+                let other = Particle::new(radius, first.mass * throw.ratio).unwrap();
+                let other = other.spinning(spin(1, radius));
+                bodies.push(first.at(centre + DVec3::Y * (first.radius + radius + gap)));
+                for n in 0..count {
+                    let down = 2.0 * radius * n as f64 * (1.0 + 1e-12);
+                    bodies.push(other.at(centre - DVec3::Y * down));
+                }
             }
             Target::Particles(count) => {
                 // Neighbours along x touch; the thrown one comes down on the middle of the row.
@@ -90,9 +106,11 @@ fn gain_under<L: ContactLaw + Clone>(law: &L, throw: &Throw, target: Target) -> 
         bodies
     };
     let make = |dt: f64| {
+        let integrator = &integrator;
         move || {
             Damper::builder(Cuboid::new(DVec3::splat(side)).unwrap(), law.clone())
                 .detector(AllPairs)
+                .integrator(integrator.clone())
                 .gravity(DVec3::ZERO)
                 .particles(place(dt))
         }
@@ -115,14 +133,20 @@ fn gain_under<L: ContactLaw + Clone>(law: &L, throw: &Throw, target: Target) -> 
     damper.kinetic_energy() / before - 1.0
 }
 
-/// Gain of kinetic energy, over what there was, in an impact under `law`.
+/// The larger gain of kinetic energy, over what there was, of both integrators in an impact under
+/// `law`.
 pub(crate) fn gain(law: Law, throw: &Throw, target: Target) -> f64 {
     let material = acrylic(throw.restitution, throw.friction);
     match law {
-        Law::HertzTsuji => gain_under(&HertzTsuji::new(material), throw, target),
-        Law::HertzMindlin => gain_under(&HertzMindlin::new(material), throw, target),
-        Law::RestitutionImpulse => gain_under(&RestitutionImpulse::new(material), throw, target),
+        Law::HertzTsuji => gain_of_both(&HertzTsuji::new(material), throw, target),
+        Law::HertzMindlin => gain_of_both(&HertzMindlin::new(material), throw, target),
+        Law::RestitutionImpulse => gain_of_both(&RestitutionImpulse::new(material), throw, target),
     }
+}
+
+fn gain_of_both<L: ContactLaw + Clone>(law: &L, throw: &Throw, target: Target) -> f64 {
+    let verlet = gain_under(law, VelocityVerlet::default(), throw, target);
+    verlet.max(gain_under(law, RungeKutta4::default(), throw, target))
 }
 
 /// A number between 0 and 1: the Weyl sequence of dimension `axis`.
@@ -138,7 +162,8 @@ pub(crate) fn throw(n: u32, restitution: [f64; 2], part: [f64; 2]) -> Throw {
         speed: between([0.02, 1.0], 1),
         degrees: between([0.0, 89.0], 2),
         restitution: between(restitution, 3),
-        friction: between([0.0, 1.0], 4),
+        // One in five without friction.
+        friction: between([-0.25, 1.0], 4).max(0.0),
         spins: [between([-2.0, 2.0], 5), between([-2.0, 2.0], 6)],
         ratio: 10.0_f64.powf(between([-3.0, 3.0], 7)),
         part: between(part, 8),
@@ -146,11 +171,15 @@ pub(crate) fn throw(n: u32, restitution: [f64; 2], part: [f64; 2]) -> Throw {
     }
 }
 
-/// What an undamped impact in four to eight steps may err by.
-fn undamped(law: Law) -> f64 {
-    match law {
-        Law::HertzTsuji | Law::HertzMindlin => 5e-3,
-        Law::RestitutionImpulse => 1e-12,
+/// What is left to integration where no damping takes energy. The strict laws take fifty steps at
+/// least to a contact without damping, and allow n steps 4/n^3 of the energy. In a line of bodies,
+/// which meet while other contacts accelerate them, the error comes to a tenth of that; an impact by
+/// itself has none of lower order than n^(-7/2), with a coefficient under 0.1 as measured.
+fn undamped(law: Law, target: Target) -> f64 {
+    match (law, target) {
+        (Law::RestitutionImpulse, _) => 1e-12,
+        (_, Target::Line(_)) => 4.0 / 50.0_f64.powi(3),
+        _ => 0.1 * 50.0_f64.powf(-3.5),
     }
 }
 
@@ -166,21 +195,24 @@ pub(crate) fn cases(form: Form) -> Vec<Case> {
             Target::Particles(1),
             Target::Particles(2),
             Target::Particles(3),
+            Target::Line(2),
         ] {
-            // Rounding, of as many steps as an impact takes; but without damping a few steps to a
-            // contact err by some 1e-3 of the energy in either direction, which is no property of a
-            // law: there the bound is that of the integration.
-            for (range, part, bound) in [
-                ([0.05, 0.99], [0.05, 0.5], 1e-12),
-                ([0.05, 0.99], [0.5, 1.0], 1e-12),
-                ([1.0, 1.0], [0.02, 0.05], 1e-12),
-                ([1.0, 1.0], [0.5, 1.0], undamped(law)),
+            for (range, part) in [
+                ([0.05, 0.99], [0.05, 0.5]),
+                ([0.05, 0.99], [0.5, 1.0]),
+                ([0.99, 1.0], [0.9, 1.0]),
+                ([1.0, 1.0], [0.5, 1.0]),
             ] {
                 let gains = (0..count).map(|n| gain(law, &throw(n, range, part), target));
                 let worst = gains.fold(f64::NEG_INFINITY, f64::max);
                 let name = format!(
                     "{law:?}, {target:?}, e {range:?}, steps {part:?} of the longest, {count} throws"
                 );
+                let bound = if range[0] < 1.0 {
+                    1e-12
+                } else {
+                    undamped(law, target)
+                };
                 cases.push(Case::bounded(name, CLAUSIUS, bound, worst));
             }
         }
