@@ -194,7 +194,7 @@ impl ContactLaw for HertzMindlin {
 
     #[inline]
     fn has_edges(&self) -> bool {
-        self.normal.mends_edges()
+        true
     }
 
     fn at_edge(

@@ -123,7 +123,7 @@ impl ContactLaw for HertzTsuji {
 
     #[inline]
     fn has_edges(&self) -> bool {
-        self.normal.mends_edges()
+        true
     }
 
     fn at_edge(

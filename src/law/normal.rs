@@ -36,7 +36,6 @@ pub(super) struct NormalForce {
     materials: Materials,
     damping: Damping,
     ending: Ending,
-    edges: bool,
     reference_speed: f64,
     /// The damping number of each ordered pair of materials, row by row.
     numbers: Vec<Result<f64, ValueError>>,
@@ -73,7 +72,6 @@ impl NormalForce {
             materials,
             damping: Damping::default(),
             ending: Ending::default(),
-            edges: true,
             reference_speed: 1.0,
             numbers: Vec::new(),
             count,
@@ -89,16 +87,6 @@ impl NormalForce {
     pub(super) fn with_ending(mut self, ending: Ending) -> Self {
         self.ending = ending;
         self.numbered()
-    }
-
-    pub(super) const fn with_edges(mut self, edges: bool) -> Self {
-        self.edges = edges;
-        self
-    }
-
-    /// Whether what a step misses of a contact that begins or ends in it is made up for.
-    pub(super) const fn mends_edges(&self) -> bool {
-        self.edges
     }
 
     pub(super) fn with_reference_speed(mut self, speed: f64) -> Result<Self, ValueError> {
@@ -280,15 +268,6 @@ macro_rules! strict_law {
             #[must_use]
             pub fn ending(mut self, ending: $crate::law::Ending) -> Self {
                 self.normal = self.normal.with_ending(ending);
-                self
-            }
-
-            /// The same law, making up for what steps miss where a contact begins and ends between
-            /// two of them, or not. It does unless told otherwise: impacts are then of second order
-            /// in the step. Without it a step of a dense bed costs a fifth less.
-            #[must_use]
-            pub fn edge_correction(mut self, wanted: bool) -> Self {
-                self.normal = self.normal.with_edges(wanted);
                 self
             }
 
