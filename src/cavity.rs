@@ -72,7 +72,7 @@ impl WallPoint {
 /// }
 /// assert_eq!(Floor.wall(0, dvec3(0.2, 0.3, 0.0)).distance, 0.3);
 /// ```
-pub trait Cavity {
+pub trait Cavity: Sync {
     /// How many walls there are.
     fn walls(&self) -> u32;
 

@@ -119,7 +119,7 @@ pub enum LawError {
 ///     }
 /// }
 /// ```
-pub trait ContactLaw {
+pub trait ContactLaw: Sync {
     /// What the law prepares for two bodies that can meet.
     type Coefficients: Copy + std::fmt::Debug + Send + Sync;
 

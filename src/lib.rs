@@ -115,6 +115,7 @@ pub mod law;
 mod material;
 pub mod mount;
 mod observer;
+mod parallel;
 mod particle;
 mod random;
 pub mod response;

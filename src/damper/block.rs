@@ -44,6 +44,25 @@ pub(crate) struct Place {
     pub(crate) partner: Partner,
 }
 
+/// What candidates are listed from.
+pub(crate) struct Listing<'a, C, L: ContactLaw> {
+    pub(crate) scene: &'a Scene<'a, C, L>,
+    /// Gap in m up to which contacts are evaluated.
+    pub(crate) reach: f64,
+    /// Starts of the rows of partners, by lower slot, and the end of the last.
+    pub(crate) rows: &'a [u32],
+    /// Where each particle is in its container's frame.
+    pub(crate) local: &'a [DVec3],
+}
+
+impl<C, L: ContactLaw> Clone for Listing<'_, C, L> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<C, L: ContactLaw> Copy for Listing<'_, C, L> {}
+
 /// A run of slots with its candidates, its scratch, and what its last evaluation found.
 #[derive(Debug, Clone)]
 pub(crate) struct Block<L: ContactLaw> {
@@ -92,6 +111,50 @@ impl<L: ContactLaw> Block<L> {
         self.pairs.remember(stamp, pairs);
         self.border.remember(stamp, pairs);
         self.walls.remember(stamp, walls);
+    }
+
+    /// Fills the empty lists. `partners` are those in the rows of the block's slots.
+    pub(crate) fn list<C: Cavity>(&mut self, listing: &Listing<'_, C, L>, partners: &mut [u32]) {
+        let Listing {
+            scene,
+            reach,
+            rows,
+            local,
+        } = *listing;
+        let begin = rows[self.slots.start];
+        for slot in self.slots.clone() {
+            let row = (rows[slot] - begin) as usize..(rows[slot + 1] - begin) as usize;
+            let partners = &mut partners[row];
+            partners.sort_unstable();
+            let mut last = None;
+            let each_once = |partner: &u32| last.replace(*partner) != Some(*partner);
+            for partner in partners.iter().copied().filter(each_once) {
+                let other = partner as usize;
+                let reach = scene.radius[slot] + scene.radius[other] + reach;
+                let list = if other < self.slots.end {
+                    &mut self.pairs
+                } else {
+                    &mut self.border
+                };
+                // The one with the lower number comes first, wherever it stands.
+                if scene.number[slot] < scene.number[other] {
+                    list.push(slot as u32, partner, reach * reach);
+                } else {
+                    list.push(partner, slot as u32, reach * reach);
+                }
+            }
+        }
+        for room in scene.rooms {
+            for slot in room.slots_in(&self.slots) {
+                let reach = scene.radius[slot] + reach;
+                for wall in 0..room.cavity.walls() {
+                    let point = room.cavity.wall(wall, local[slot]);
+                    if point.distance < reach + room.margin {
+                        self.walls.push(slot as u32, room.first_wall + wall, reach);
+                    }
+                }
+            }
+        }
     }
 
     /// Makes finished lists ready for use, but for what the law has to [`prepare`](Self::prepare).

@@ -1,6 +1,7 @@
 //! Detection: candidates are proposed, sorted into the one order in which contacts are evaluated, and
 //! narrowed down to those that touch.
 
+use super::block::{Block, Listing};
 use super::candidates::Remembered;
 use super::engine::Engine;
 use super::error::StepError;
@@ -8,6 +9,7 @@ use crate::cavity::Cavity;
 use crate::detector::{Bed, Detector};
 use crate::law::ContactLaw;
 use crate::mount::Mount;
+use crate::parallel::both;
 
 impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Lists the pairs and walls that touch now. With `afresh`, candidates without a skin are listed
@@ -29,11 +31,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     fn narrow(&mut self) -> bool {
         let scene = self.world.scene(&self.particles, 0.0);
         let reference = self.scratch.reference.components();
-        let mut trusted = true;
-        for block in &mut self.blocks {
-            trusted &= block.narrow(&scene, &reference);
-        }
-        trusted
+        all_blocks(&mut self.blocks, &|block| block.narrow(&scene, &reference))
     }
 
     /// Broad phase: lists candidates, and hands the memory of contacts over to the new list.
@@ -67,9 +65,11 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         self.propose()?;
         self.list_candidates();
         let scene = self.world.scene(&self.particles, 0.0);
-        for block in &mut self.blocks {
-            block.finish(&scene, &self.scratch.memory);
-        }
+        let memory = &self.scratch.memory;
+        all_blocks(&mut self.blocks, &|block| {
+            block.finish(&scene, memory);
+            true
+        });
         for block in &mut self.blocks {
             block.prepare(&scene)?;
         }
@@ -136,46 +136,13 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
     /// Fills the blocks' empty lists from the sorted proposals, and with the walls that are near.
     fn list_candidates(&mut self) {
-        let (scratch, world) = (&mut self.scratch, &self.world);
-        let (radius, number) = (&self.particles.radius, &self.particles.number);
-        for block in &mut self.blocks {
-            for slot in block.slots.clone() {
-                let row = scratch.rows[slot] as usize..scratch.rows[slot + 1] as usize;
-                let partners = &mut scratch.partners[row];
-                partners.sort_unstable();
-                let mut last = None;
-                for partner in partners
-                    .iter()
-                    .copied()
-                    .filter(|p| last.replace(*p) != Some(*p))
-                {
-                    let reach = radius[slot] + radius[partner as usize] + world.reach;
-                    let list = if (partner as usize) < block.slots.end {
-                        &mut block.pairs
-                    } else {
-                        &mut block.border
-                    };
-                    // The one with the lower number comes first, wherever it stands.
-                    let (mut first, mut second) = (slot as u32, partner);
-                    if number[slot] > number[partner as usize] {
-                        std::mem::swap(&mut first, &mut second);
-                    }
-                    list.push(first, second, reach * reach);
-                }
-            }
-            for room in &world.rooms {
-                let own = room.slots_in(&block.slots);
-                let grains = radius[own.clone()].iter().zip(&scratch.local[own.clone()]);
-                for (slot, (radius, point)) in own.zip(grains) {
-                    let reach = radius + world.reach;
-                    for wall in 0..room.cavity.walls() {
-                        if room.cavity.wall(wall, *point).distance < reach + room.margin {
-                            block.walls.push(slot as u32, room.first_wall + wall, reach);
-                        }
-                    }
-                }
-            }
-        }
+        let listing = Listing {
+            scene: &self.world.scene(&self.particles, 0.0),
+            reach: self.world.reach,
+            rows: &self.scratch.rows,
+            local: &self.scratch.local,
+        };
+        list_blocks(&listing, &mut self.blocks, &mut self.scratch.partners);
     }
 
     /// Memories of all contacts, pairs and walls, by slot.
@@ -186,5 +153,44 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
         memory[0].sort_unstable_by_key(Remembered::pair);
         memory
+    }
+}
+
+/// Does `work` for all blocks, and tells whether it was good for each.
+fn all_blocks<L: ContactLaw>(
+    blocks: &mut [Block<L>],
+    work: &(impl Fn(&mut Block<L>) -> bool + Sync),
+) -> bool {
+    match blocks {
+        [] => true,
+        [block] => work(block),
+        _ => {
+            let (first, second) = blocks.split_at_mut(blocks.len() / 2);
+            let (first, second) = both(|| all_blocks(first, work), || all_blocks(second, work));
+            first && second
+        }
+    }
+}
+
+/// Fills the empty lists of blocks. `partners` are those in the rows of their slots.
+fn list_blocks<C: Cavity, L: ContactLaw>(
+    listing: &Listing<'_, C, L>,
+    blocks: &mut [Block<L>],
+    partners: &mut [u32],
+) {
+    match blocks {
+        [] => {}
+        [block] => block.list(listing, partners),
+        _ => {
+            let (first, second) = blocks.split_at_mut(blocks.len() / 2);
+            let start = first.first().map_or(0, |block| block.slots.start);
+            let end = second.first().map_or(start, |block| block.slots.start);
+            let count = listing.rows[end] - listing.rows[start];
+            let (before, after) = partners.split_at_mut(count as usize);
+            both(
+                || list_blocks(listing, first, before),
+                || list_blocks(listing, second, after),
+            );
+        }
     }
 }

@@ -7,7 +7,7 @@ use super::block::{BLOCK, Block, Place, room_for};
 use super::candidates::Remembered;
 use super::error::StepError;
 use super::particles::Particles;
-use super::scene::{Room, WallLoad, World};
+use super::scene::{Room, Scene, WallLoad, World};
 use super::vectors::Vectors;
 use crate::cavity::Cavity;
 use crate::detector::{Detector, Pairs};
@@ -15,6 +15,7 @@ use crate::integrator::Stage;
 use crate::law::{ContactLaw, Evaluation};
 use crate::mount::{Motion, Mount};
 use crate::observer::Observer;
+use crate::parallel::{both, update};
 
 /// Coordinates of the mount, followed by three per cavity whose velocity sums up the impulse on its
 /// container. Integrating them along with the rest makes that impulse exactly the momentum that the
@@ -212,12 +213,17 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
         let mut torque = std::mem::take(&mut self.particles.angular_acceleration);
         let scene = self.world.scene(&self.particles, elapsed);
-        let mut rests = [force.components_mut(), torque.components_mut()];
-        for block in &mut self.blocks {
-            let [force, torque] = rests
-                .each_mut()
-                .map(|rest| split_off(rest, block.slots.len()));
-            block.evaluate::<C, O, END>(&scene, force, torque, observer);
+        let sums = (force.components_mut(), torque.components_mut());
+        if END && observer.wants_contacts() {
+            let mut rests = sums;
+            for block in &mut self.blocks {
+                let count = block.slots.len();
+                let force = split_off(&mut rests.0, count);
+                let torque = split_off(&mut rests.1, count);
+                block.evaluate::<C, O, END>(&scene, force, torque, observer);
+            }
+        } else {
+            evaluate_unwatched::<C, L, END>(&mut self.blocks, &scene, sums);
         }
         for parcel in self.blocks.iter().flat_map(|block| &block.parcels) {
             let slot = parcel.slot as usize;
@@ -226,14 +232,14 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
         let gravity = self.gravity.to_array();
         for (component, gravity) in force.components_mut().into_iter().zip(gravity) {
-            for (force, inverse) in component.iter_mut().zip(&self.particles.inverse_mass) {
-                *force = *force * *inverse + gravity;
-            }
+            update(component, &self.particles.inverse_mass, |force, inverse| {
+                *force = *force * inverse + gravity;
+            });
         }
         for component in torque.components_mut() {
-            for (torque, inverse) in component.iter_mut().zip(&self.particles.inverse_inertia) {
-                *torque *= *inverse;
-            }
+            update(component, &self.particles.inverse_inertia, |torque, inverse| {
+                *torque *= inverse;
+            });
         }
         let finite = force.is_finite() && torque.is_finite();
         let before = std::mem::replace(&mut self.particles.acceleration, force);
@@ -342,6 +348,33 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
         self.accelerate_mount(time);
         Ok(())
+    }
+}
+
+/// Forces and torques by component.
+type SumsOfSlots<'a> = ([&'a mut [f64]; 3], [&'a mut [f64]; 3]);
+
+/// Evaluates blocks one after the other or at the same time. `sums` are those of their slots.
+fn evaluate_unwatched<C: Cavity, L: ContactLaw, const END: bool>(
+    blocks: &mut [Block<L>],
+    scene: &Scene<'_, C, L>,
+    (mut force, mut torque): SumsOfSlots<'_>,
+) {
+    match blocks {
+        [] => {}
+        [block] => block.evaluate::<C, (), END>(scene, force, torque, &mut ()),
+        _ => {
+            let (first, second) = blocks.split_at_mut(blocks.len() / 2);
+            let count = first.iter().map(|block| block.slots.len()).sum();
+            let sums = (
+                split_off(&mut force, count),
+                split_off(&mut torque, count),
+            );
+            both(
+                || evaluate_unwatched::<C, L, END>(first, scene, sums),
+                || evaluate_unwatched::<C, L, END>(second, scene, (force, torque)),
+            );
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 use super::{Columns, Integrator, Motions, Stage, System};
 use crate::damper::StepError;
+use crate::parallel::{update, update_by_two};
 
 /// The classical Runge-Kutta method of fourth order (the paper's): four evaluations a step, the
 /// last of which serves as the next step's first.
@@ -38,19 +39,18 @@ impl Weighted {
 
     /// Adds `slope` with `weight`, and moves the column on by `reach` from the start along it.
     fn stage(&mut self, column: &mut [f64], slope: &[f64], weight: f64, reach: f64) {
-        let kept = self.start.iter().zip(&mut self.sum);
-        for ((value, slope), (start, sum)) in column.iter_mut().zip(slope).zip(kept) {
-            *sum += *slope * weight;
-            *value = *start + *slope * reach;
-        }
+        update(&mut self.sum, slope, |sum, slope| *sum += slope * weight);
+        update_by_two(column, &self.start, slope, |value, start, slope| {
+            *value = start + slope * reach;
+        });
     }
 
     /// Adds the last `slope`, and moves the column from the start along the sum.
     fn finish(&self, column: &mut [f64], slope: &[f64], weight: f64) {
-        let kept = self.start.iter().zip(&self.sum);
-        for ((value, slope), (start, sum)) in column.iter_mut().zip(slope).zip(kept) {
-            *value = *start + *sum + *slope * weight;
-        }
+        update_by_two(column, &self.start, &self.sum, |value, start, sum| {
+            *value = start + sum;
+        });
+        update(column, slope, |value, slope| *value += slope * weight);
     }
 }
 

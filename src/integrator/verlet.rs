@@ -1,5 +1,6 @@
 use super::{Columns, Integrator, Motions, Stage, System};
 use crate::damper::StepError;
+use crate::parallel::{update, update_by_two, update_two};
 
 /// Velocity Verlet with the velocity predicted for the evaluation (Groot & Warren 1997,
 /// doi 10.1063/1.474784, with full prediction): second order, one evaluation a step. The default.
@@ -27,29 +28,22 @@ fn predict(columns: Columns<'_>, kept: &mut Vec<f64>, dt: f64) {
     kept.clear();
     kept.extend_from_slice(acceleration);
     if position.is_empty() {
-        for (v, a) in velocity.iter_mut().zip(acceleration) {
-            *v += *a * dt;
-        }
+        update(velocity, acceleration, |v, a| *v += a * dt);
         return;
     }
     let half = 0.5 * dt;
-    for ((x, v), a) in position.iter_mut().zip(velocity).zip(acceleration) {
-        *x += (*v + *a * half) * dt;
-        *v += *a * dt;
-    }
+    update_two(position, velocity, acceleration, |x, v, a| {
+        *x += (*v + a * half) * dt;
+        *v += a * dt;
+    });
 }
 
 /// Turns the predicted velocities into v + (a + a') dt/2.
 fn correct(columns: Columns<'_>, kept: &[f64], dt: f64) {
     let half = 0.5 * dt;
-    for ((v, new), old) in columns
-        .velocity
-        .iter_mut()
-        .zip(columns.acceleration)
-        .zip(kept)
-    {
-        *v += (*new - *old) * half;
-    }
+    update_by_two(columns.velocity, columns.acceleration, kept, |v, new, old| {
+        *v += (new - old) * half;
+    });
 }
 
 impl Integrator for VelocityVerlet {

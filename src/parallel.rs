@@ -1,0 +1,88 @@
+//! Work on long columns and many blocks: on all threads of the current pool with the feature `rayon`,
+//! in turn without it. The results are the same bits.
+
+/// Columns no longer than this are not worth a second thread.
+#[cfg(feature = "rayon")]
+const PIECE: usize = 16_384;
+
+/// Does both, at the same time if there are threads for it.
+#[cfg(feature = "rayon")]
+pub(crate) fn both<A: Send, B: Send>(
+    first: impl FnOnce() -> A + Send,
+    second: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    rayon::join(first, second)
+}
+
+/// Does both.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn both<A, B>(first: impl FnOnce() -> A, second: impl FnOnce() -> B) -> (A, B) {
+    (first(), second())
+}
+
+/// Changes each number of a column by the ones in the same place of another.
+pub(crate) fn update(
+    values: &mut [f64],
+    by: &[f64],
+    change: impl Fn(&mut f64, f64) + Sync + Copy,
+) {
+    let work = |values: &mut [f64], by: &[f64]| {
+        for (value, by) in values.iter_mut().zip(by) {
+            change(value, *by);
+        }
+    };
+    #[cfg(feature = "rayon")]
+    if values.len() > PIECE {
+        use rayon::prelude::*;
+        let pieces = values.par_chunks_mut(PIECE).zip(by.par_chunks(PIECE));
+        pieces.for_each(|(values, by)| work(values, by));
+        return;
+    }
+    work(values, by);
+}
+
+/// Changes each two numbers in the same place of two columns by that of a third.
+pub(crate) fn update_two(
+    first: &mut [f64],
+    second: &mut [f64],
+    by: &[f64],
+    change: impl Fn(&mut f64, &mut f64, f64) + Sync + Copy,
+) {
+    let work = |first: &mut [f64], second: &mut [f64], by: &[f64]| {
+        for ((first, second), by) in first.iter_mut().zip(second).zip(by) {
+            change(first, second, *by);
+        }
+    };
+    #[cfg(feature = "rayon")]
+    if first.len() > PIECE {
+        use rayon::prelude::*;
+        let pieces = first.par_chunks_mut(PIECE).zip(second.par_chunks_mut(PIECE));
+        let pieces = pieces.zip(by.par_chunks(PIECE));
+        pieces.for_each(|((first, second), by)| work(first, second, by));
+        return;
+    }
+    work(first, second, by);
+}
+
+/// Changes each number of a column by the ones in the same place of two others.
+pub(crate) fn update_by_two(
+    values: &mut [f64],
+    by: &[f64],
+    and: &[f64],
+    change: impl Fn(&mut f64, f64, f64) + Sync + Copy,
+) {
+    let work = |values: &mut [f64], by: &[f64], and: &[f64]| {
+        for ((value, by), and) in values.iter_mut().zip(by).zip(and) {
+            change(value, *by, *and);
+        }
+    };
+    #[cfg(feature = "rayon")]
+    if values.len() > PIECE {
+        use rayon::prelude::*;
+        let pieces = values.par_chunks_mut(PIECE).zip(by.par_chunks(PIECE));
+        let pieces = pieces.zip(and.par_chunks(PIECE));
+        pieces.for_each(|((values, by), and)| work(values, by, and));
+        return;
+    }
+    work(values, by, and);
+}
