@@ -2,8 +2,9 @@
 //!
 //! `cargo run --release --example bed -- scene.txt --steps 25000` reads a start state: a first line
 //! `DIM N WIDTH HEIGHT DEPTH DIAMETER DENSITY`, then `x y z vx vy vz wx wy wz` for each sphere (SI,
-//! origin in a corner of the box, z = 0 if `DIM` is 2). Without a file it fills a box itself:
-//! `--particles 1000000 --dimension 3`.
+//! origin in a corner of the box, z = 0 if `DIM` is 2). Without a file it stacks spheres itself:
+//! `--particles 1000000 --dimension 3 --before 500 --steps 100`. With the feature `rayon` a bed of more
+//! than 4096 particles uses all cores (as many as `RAYON_NUM_THREADS` says).
 //!
 //! The whole container moves along y, against gravity, with 10 mm at 6 Hz, and starts from rest at its
 //! lowest point, as LAMMPS's `wiggle` does: y = 10 mm (1 - cos(2 pi 6 Hz t)). Spheres are of
@@ -18,8 +19,8 @@ use std::time::Instant;
 use clap::{Parser, ValueEnum};
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::{
-    Cavity, ContactLaw, Cuboid, Damper, Damping, Filling, HertzMindlin, HertzTsuji, LinkedCells,
-    Material, Motion, Particle, Prescribed, RestitutionImpulse, Skin, Slot,
+    Cavity, ContactLaw, Cuboid, Damper, Damping, HertzMindlin, HertzTsuji, LinkedCells, Material,
+    Motion, Particle, Prescribed, RestitutionImpulse, Skin, Slot,
 };
 
 type Failure = Box<dyn Error>;
@@ -28,8 +29,6 @@ type Failure = Box<dyn Error>;
 const FREQUENCY: f64 = 6.0;
 const AMPLITUDE: f64 = 0.01;
 const TIME_STEP: f64 = 2e-5;
-/// Steps that are taken before the clock starts.
-const WARM_UP: u64 = 20;
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Law {
@@ -52,18 +51,21 @@ enum Dashpot {
 /// A shaken bed, timed.
 #[derive(Debug, Parser)]
 struct Options {
-    /// Start state; without it a box is filled.
+    /// Start state; without it spheres are stacked.
     scene: Option<PathBuf>,
-    /// Particles of a box that is filled.
+    /// Particles of a box that is stacked.
     #[arg(long, default_value_t = 1000)]
     particles: usize,
-    /// 2 for a box that is filled one particle deep, 3 for a cube.
+    /// 2 for a box one particle deep, 3 for a cube.
     #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u8).range(2..=3))]
     dimension: u8,
     #[arg(long, value_enum, default_value_t = Law::Mindlin)]
     law: Law,
     #[arg(long, value_enum, default_value_t = Dashpot::Tsuji)]
     damping: Dashpot,
+    /// Steps that are taken before the clock starts.
+    #[arg(long, default_value_t = 20)]
+    before: u64,
     /// Steps that are timed.
     #[arg(long, default_value_t = 25_000)]
     steps: u64,
@@ -113,18 +115,36 @@ impl Scene {
         })
     }
 
-    /// A box that a settled bed fills to 60 %.
-    fn filled(planar: bool, count: usize) -> Result<Self, Failure> {
+    /// A box that `count` spheres fill to 60 %, stacked from the floor in rows that just do not touch.
+    fn stacked(planar: bool, count: usize) -> Result<Self, Failure> {
         let sphere = Particle::new(3e-3, 2e-4)?;
-        let volume = 4.0 / 3.0 * PI * sphere.radius.powi(3);
-        let filling = Filling::new(1).with(count, sphere);
-        let (size, particles) = if planar {
-            let size = (count as f64 / 100.0).sqrt() * dvec3(0.060, 0.096, 0.0);
-            (size, filling.fill(&Slot::new(size.x, size.y)?)?)
+        let diameter = 2.0 * sphere.radius;
+        let volume = PI / 6.0 * diameter.powi(3);
+        let size = if planar {
+            (count as f64 / 100.0).sqrt() * dvec3(0.060, 0.096, 0.0)
         } else {
-            let size = DVec3::splat((count as f64 * volume / 0.36).cbrt());
-            (size, filling.fill(&Cuboid::new(size)?)?)
+            DVec3::splat((count as f64 * volume / 0.36).cbrt())
         };
+        let pitch = diameter * (1.0 + 1e-5);
+        let layers = if planar { 1 } else { (size.z / pitch) as u32 };
+        let rows = 0..(size.y / pitch * 1.15) as u32;
+        let places = rows.flat_map(|row| {
+            let shift = 0.5 * pitch * f64::from(1 + row % 2);
+            let columns = ((size.x - shift - 0.5 * pitch) / pitch) as u32 + 1;
+            let y = pitch * (0.5 + 0.75_f64.sqrt() * f64::from(row));
+            (0..layers).flat_map(move |layer| {
+                let z = if planar {
+                    0.0
+                } else {
+                    pitch * (0.5 + f64::from(layer))
+                };
+                (0..columns).map(move |column| dvec3(shift + pitch * f64::from(column), y, z))
+            })
+        });
+        let particles: Vec<_> = places.take(count).map(|place| sphere.at(place)).collect();
+        if particles.len() < count {
+            return Err(format!("{count} spheres do not fit into the box").into());
+        }
         Ok(Self {
             planar,
             size,
@@ -137,7 +157,7 @@ impl Options {
     fn run(&self) -> Result<(), Failure> {
         let scene = match &self.scene {
             Some(path) => Scene::read(path)?,
-            None => Scene::filled(self.dimension == 2, self.particles)?,
+            None => Scene::stacked(self.dimension == 2, self.particles)?,
         };
         let (size, particles) = (scene.size, scene.particles);
         if scene.planar {
@@ -187,7 +207,7 @@ impl Options {
             .particles(particles)
             .time_step(TIME_STEP)
             .build()?;
-        for _ in 0..WARM_UP {
+        for _ in 0..self.before {
             damper.step()?;
         }
         let lists = damper.detections();

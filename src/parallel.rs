@@ -21,11 +21,7 @@ pub(crate) fn both<A, B>(first: impl FnOnce() -> A, second: impl FnOnce() -> B) 
 }
 
 /// Changes each number of a column by the ones in the same place of another.
-pub(crate) fn update(
-    values: &mut [f64],
-    by: &[f64],
-    change: impl Fn(&mut f64, f64) + Sync + Copy,
-) {
+pub(crate) fn update(values: &mut [f64], by: &[f64], change: impl Fn(&mut f64, f64) + Sync + Copy) {
     let work = |values: &mut [f64], by: &[f64]| {
         for (value, by) in values.iter_mut().zip(by) {
             change(value, *by);
@@ -56,7 +52,9 @@ pub(crate) fn update_two(
     #[cfg(feature = "rayon")]
     if first.len() > PIECE {
         use rayon::prelude::*;
-        let pieces = first.par_chunks_mut(PIECE).zip(second.par_chunks_mut(PIECE));
+        let pieces = first
+            .par_chunks_mut(PIECE)
+            .zip(second.par_chunks_mut(PIECE));
         let pieces = pieces.zip(by.par_chunks(PIECE));
         pieces.for_each(|((first, second), by)| work(first, second, by));
         return;

@@ -1,6 +1,8 @@
 //! Bad days: what hosts and laws hand in by mistake is a typed error that says what and where, and the
 //! damper goes on once it is restored.
 
+use std::sync::{Arc, Mutex};
+
 use glam::{DMat3, DVec3, dvec3};
 use particle_damper::{
     Bodies, Bound, Contact, ContactForce, ContactLaw, Cuboid, Damper, Driven, Evaluation, Filling,
@@ -161,7 +163,7 @@ fn a_container_moved_by_a_metre_in_one_step_leaves_its_particles_behind() {
 /// A linear spring that answers with NaN between two particles, or at a wall, when told to.
 #[derive(Debug, Clone)]
 struct Spring {
-    fails_at: std::rc::Rc<std::cell::Cell<Option<bool>>>,
+    fails_at: Arc<Mutex<Option<bool>>>,
     impulse: bool,
 }
 
@@ -174,7 +176,7 @@ impl ContactLaw for Spring {
     }
 
     fn force(&self, at_wall: &bool, contact: &Contact, (): &()) -> ContactForce {
-        if self.fails_at.get() == Some(*at_wall) {
+        if *self.fails_at.lock().unwrap() == Some(*at_wall) {
             return ContactForce::new(f64::NAN, DVec3::ZERO);
         }
         ContactForce::new(300.0 * contact.overlap.max(0.0), DVec3::ZERO)
@@ -193,14 +195,14 @@ impl ContactLaw for Spring {
 fn a_law_that_returns_nan_is_named_by_the_particle_it_was_asked_for() {
     for impulse in [false, true] {
         for at_wall in [false, true] {
-            let fails_at = std::rc::Rc::default();
+            let fails_at = Arc::default();
             let law = Spring { fails_at, impulse };
             let switch = law.fails_at.clone();
             let error = survives(law, move |damper| {
-                switch.set(Some(at_wall));
+                *switch.lock().unwrap() = Some(at_wall);
                 // Sooner or later something touches.
                 let outcome = (0..5000).try_for_each(|_| damper.step());
-                switch.set(None);
+                *switch.lock().unwrap() = None;
                 outcome
             });
             let StepError::NotFinite {
@@ -267,7 +269,7 @@ fn two_bodies_pressed_into_each_other_are_named() {
         particle.at(dvec3(x, 0.015, 0.015)).moving(DVec3::X * speed)
     };
     let soft = Spring {
-        fails_at: std::rc::Rc::default(),
+        fails_at: Arc::default(),
         impulse: false,
     };
     let mut damper = Damper::builder(cavity, soft)

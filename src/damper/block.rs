@@ -12,7 +12,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::Partner;
-use super::candidates::{Candidates, Remembered, Touch, pair};
+use super::candidates::{Candidates, Remembered, Touch, make_room, pair};
 use super::chunk::{CHUNK, Chunk};
 use super::scene::{Scene, WallLoad};
 use super::vectors::{Components, part, vector};
@@ -63,6 +63,9 @@ impl<C, L: ContactLaw> Clone for Listing<'_, C, L> {
 
 impl<C, L: ContactLaw> Copy for Listing<'_, C, L> {}
 
+/// What contacts remember: of pairs, and of walls.
+pub(crate) type Memories<L> = [Vec<Remembered<<L as ContactLaw>::Memory>>; 2];
+
 /// A run of slots with its candidates, its scratch, and what its last evaluation found.
 #[derive(Debug, Clone)]
 pub(crate) struct Block<L: ContactLaw> {
@@ -70,6 +73,8 @@ pub(crate) struct Block<L: ContactLaw> {
     pub(crate) pairs: Candidates<L>,
     pub(crate) border: Candidates<L>,
     pub(crate) walls: Candidates<L>,
+    /// What contacts of pairs and walls remember, while they are listed anew.
+    pub(crate) memory: Memories<L>,
     pub(crate) parcels: Vec<Parcel>,
     pub(crate) loads: Vec<WallLoad>,
     pub(crate) contacts: usize,
@@ -81,13 +86,15 @@ pub(crate) struct Block<L: ContactLaw> {
 impl<L: ContactLaw> Block<L> {
     pub(crate) fn new(slots: Range<usize>, walls: usize) -> Self {
         let (mut pairs, mut near) = (Candidates::default(), Candidates::default());
-        pairs.reserve(room_for(slots.len()));
-        near.reserve(room_for(slots.len()));
+        pairs.reserve_all(room_for(slots.len()));
+        near.reserve_all(room_for(slots.len()));
+        let memory = [(); 2].map(|()| Vec::with_capacity(room_for(slots.len())));
         Self {
             slots,
             pairs,
             border: Candidates::default(),
             walls: near,
+            memory,
             parcels: Vec::new(),
             loads: vec![WallLoad::default(); walls],
             contacts: 0,
@@ -97,20 +104,39 @@ impl<L: ContactLaw> Block<L> {
         }
     }
 
-    /// Empties the lists; what their contacts remember is added to `pairs` and to `walls`.
-    pub(crate) fn clear(&mut self, stamp: u32, memory: &mut [Vec<Remembered<L::Memory>>; 2]) {
-        let [pairs, walls] = memory;
-        self.pairs.clear(stamp, pairs);
-        self.border.clear(stamp, pairs);
-        self.walls.clear(stamp, walls);
+    /// Empties the lists, and keeps what their contacts remember of step `stamp`.
+    pub(crate) fn clear(&mut self, stamp: u32) {
+        let mut memory = std::mem::take(&mut self.memory);
+        memory.iter_mut().for_each(Vec::clear);
+        make_room(&mut memory[0], self.pairs.entries() + self.border.entries());
+        make_room(&mut memory[1], self.walls.entries());
+        self.remember(stamp, &mut memory);
+        memory[0].sort_unstable_by_key(Remembered::pair);
+        self.memory = memory;
+        self.pairs.clear();
+        self.border.clear();
+        self.walls.clear();
     }
 
-    /// Adds what the contacts of step `stamp` remember to `memory`, of pairs and of walls.
-    pub(crate) fn remember(&self, stamp: u32, memory: &mut [Vec<Remembered<L::Memory>>; 2]) {
+    /// Adds what the contacts of step `stamp` remember to `memory`.
+    pub(crate) fn remember(&self, stamp: u32, memory: &mut Memories<L>) {
         let [pairs, walls] = memory;
         self.pairs.remember(stamp, pairs);
         self.border.remember(stamp, pairs);
         self.walls.remember(stamp, walls);
+    }
+
+    /// Keeps what `memory` holds of the block's contacts. It is in ascending order.
+    pub(crate) fn recall(&mut self, memory: &Memories<L>) {
+        let slots = [self.slots.start as u32, self.slots.end as u32];
+        let own = |all: &[Remembered<L::Memory>], slot: fn(&Remembered<L::Memory>) -> u32| {
+            let [start, end] = slots.map(|end| all.partition_point(|own| slot(own) < end));
+            all[start..end].to_vec()
+        };
+        self.memory = [
+            own(&memory[0], |contact| contact.pair().0),
+            own(&memory[1], |contact| contact.wall().0),
+        ];
     }
 
     /// Fills the empty lists. `partners` are those in the rows of the block's slots.
@@ -122,6 +148,10 @@ impl<L: ContactLaw> Block<L> {
             local,
         } = *listing;
         let begin = rows[self.slots.start];
+        let beyond = |partner: &&u32| **partner as usize >= self.slots.end;
+        let border = partners.iter().filter(beyond).count();
+        self.border.reserve(border);
+        self.pairs.reserve(partners.len() - border);
         for slot in self.slots.clone() {
             let row = (rows[slot] - begin) as usize..(rows[slot + 1] - begin) as usize;
             let partners = &mut partners[row];
@@ -158,17 +188,13 @@ impl<L: ContactLaw> Block<L> {
     }
 
     /// Makes finished lists ready for use, but for what the law has to [`prepare`](Self::prepare).
-    pub(crate) fn finish<C: Cavity>(
-        &mut self,
-        scene: &Scene<'_, C, L>,
-        memory: &[Vec<Remembered<L::Memory>>; 2],
-    ) {
-        let [pairs, walls] = memory;
+    pub(crate) fn finish<C: Cavity>(&mut self, scene: &Scene<'_, C, L>) {
+        let [pairs, walls] = &self.memory;
         self.pairs.finish(scene.stamp, pairs, pair);
         self.border.finish(scene.stamp, pairs, pair);
         self.walls
             .finish(scene.stamp, walls, |slot, wall| (slot, wall));
-        self.parcels.reserve(self.border.candidates());
+        make_room(&mut self.parcels, self.border.candidates());
     }
 
     /// Asks the law for the pairs of finished lists.
@@ -370,6 +396,8 @@ impl<L: ContactLaw> Block<L> {
         let lists = [&self.pairs, &self.border, &self.walls];
         lists.map(Candidates::reserved_bytes).iter().sum::<usize>()
             + size_of::<Parcel>() * self.parcels.capacity()
+            + size_of::<Remembered<L::Memory>>()
+                * self.memory.iter().map(Vec::capacity).sum::<usize>()
     }
 }
 

@@ -64,12 +64,17 @@ pub(crate) const fn pair(first: u32, second: u32) -> (u32, u32) {
 #[derive(Debug, Clone)]
 pub(crate) struct Candidates<L: ContactLaw> {
     list: Vec<Candidate>,
-    /// One each, if contacts remember anything; else empty.
+    /// Place of the entry of each, or [`NONE`]; empty if contacts remember nothing.
+    entry: Vec<u32>,
+    /// What those remember that have touched since they were listed, or had before.
     entries: Vec<Entry<L::Memory>>,
     /// One each, if the law has to be asked pair by pair; else empty.
     prepared: Vec<L::Coefficients>,
     pub(crate) contacts: Contacts,
 }
+
+/// No entry.
+const NONE: u32 = u32::MAX;
 
 /// What a candidate remembers.
 #[derive(Debug, Clone, Copy)]
@@ -107,16 +112,24 @@ impl Contacts {
     }
 }
 
-/// Gives `column` a length, and room for more, so that columns that belong together grow together.
-fn fit<T: Copy>(column: &mut Vec<T>, length: usize, room: usize, value: T) {
-    column.resize(length, value);
-    column.reserve(room - length);
+/// Makes room for `count` entries. A column that has to grow gets an eighth more than that.
+pub(crate) fn make_room<T>(column: &mut Vec<T>, count: usize) {
+    if column.capacity() < count {
+        column.reserve_exact(count + count / 8 - column.len());
+    }
+}
+
+/// Gives a column `count` entries.
+fn fit<T: Copy>(column: &mut Vec<T>, count: usize, value: T) {
+    make_room(column, count);
+    column.resize(count, value);
 }
 
 impl<L: ContactLaw> Default for Candidates<L> {
     fn default() -> Self {
         Self {
             list: Vec::new(),
+            entry: Vec::new(),
             entries: Vec::new(),
             prepared: Vec::new(),
             contacts: Contacts::default(),
@@ -128,10 +141,8 @@ impl<L: ContactLaw> Candidates<L> {
     /// Whether the law's contacts remember anything; decided when the program is compiled.
     pub(crate) const REMEMBERS: bool = size_of::<L::Memory>() != 0;
 
-    /// Empties the list. The memories of contacts that touched at the end of step `stamp` are added
-    /// to `remembered`.
-    pub(crate) fn clear(&mut self, stamp: u32, remembered: &mut Vec<Remembered<L::Memory>>) {
-        self.remember(stamp, remembered);
+    /// Empties the list.
+    pub(crate) fn clear(&mut self) {
         self.list.clear();
         self.contacts.count = 0;
     }
@@ -141,18 +152,40 @@ impl<L: ContactLaw> Candidates<L> {
         if !Self::REMEMBERS {
             return;
         }
-        let all = self.list.iter().zip(&self.entries);
-        let touched = all.filter(|(_, entry)| entry.touched == stamp);
-        remembered.extend(touched.map(|(candidate, entry)| Remembered {
-            first: candidate.first,
-            second: candidate.second,
-            memory: entry.memory,
-        }));
+        let entries = self
+            .entry
+            .iter()
+            .map(|place| self.entries.get(*place as usize));
+        for (candidate, entry) in self.list.iter().zip(entries) {
+            if let Some(entry) = entry.filter(|entry| entry.touched == stamp) {
+                remembered.push(Remembered {
+                    first: candidate.first,
+                    second: candidate.second,
+                    memory: entry.memory,
+                });
+            }
+        }
+    }
+
+    /// How many memories there may be.
+    pub(crate) const fn entries(&self) -> usize {
+        self.entries.len()
     }
 
     /// Makes room for candidates.
     pub(crate) fn reserve(&mut self, candidates: usize) {
-        self.list.reserve(candidates);
+        make_room(&mut self.list, candidates);
+    }
+
+    /// Makes room for whatever comes of `candidates`.
+    pub(crate) fn reserve_all(&mut self, candidates: usize) {
+        make_room(&mut self.list, candidates);
+        make_room(&mut self.contacts.bodies, candidates + 1);
+        make_room(&mut self.contacts.places, candidates + 1);
+        if Self::REMEMBERS {
+            make_room(&mut self.entry, candidates);
+            make_room(&mut self.entries, candidates);
+        }
     }
 
     /// Adds a candidate. Pairs come in ascending order of their slots, the lower one first; walls in
@@ -175,28 +208,26 @@ impl<L: ContactLaw> Candidates<L> {
     ) {
         let count = self.list.len();
         // One place more, because entries are written before it is known whether they count.
-        let room = self.list.capacity() + 1;
-        fit(&mut self.contacts.bodies, count + 1, room, [0; 2]);
-        fit(&mut self.contacts.places, count + 1, room, 0);
+        fit(&mut self.contacts.bodies, count + 1, [0; 2]);
+        fit(&mut self.contacts.places, count + 1, 0);
         if !Self::REMEMBERS {
             return;
         }
-        let new = Entry {
-            touched: stamp.wrapping_sub(1),
-            memory: L::Memory::default(),
-        };
+        self.entry.clear();
+        fit(&mut self.entry, count, NONE);
         self.entries.clear();
-        fit(&mut self.entries, count, room, new);
+        make_room(&mut self.entries, remembered.len());
         let mut remembered = remembered.iter().peekable();
-        for (place, candidate) in self.list.iter().enumerate() {
+        for (entry, candidate) in self.entry.iter_mut().zip(&self.list) {
             let own = key(candidate.first, candidate.second);
             let of = |contact: &Remembered<L::Memory>| key(contact.first, contact.second);
             while remembered.next_if(|contact| of(contact) < own).is_some() {}
             if let Some(contact) = remembered.next_if(|contact| of(contact) == own) {
-                self.entries[place] = Entry {
+                *entry = self.entries.len() as u32;
+                self.entries.push(Entry {
                     touched: stamp,
                     memory: contact.memory,
-                };
+                });
             }
         }
     }
@@ -263,11 +294,11 @@ impl<L: ContactLaw> Candidates<L> {
     /// What a contact remembers from the end of step `stamp`: the default if it did not touch then.
     #[inline(always)]
     pub(crate) fn memory(&self, place: u32, stamp: u32) -> L::Memory {
-        if Self::REMEMBERS {
-            let entry = &self.entries[place as usize];
-            if entry.touched == stamp {
-                return entry.memory;
-            }
+        if Self::REMEMBERS
+            && let Some(entry) = self.entries.get(self.entry[place as usize] as usize)
+            && entry.touched == stamp
+        {
+            return entry.memory;
         }
         L::Memory::default()
     }
@@ -277,11 +308,9 @@ impl<L: ContactLaw> Candidates<L> {
     pub(crate) fn recall(&self, run: Range<usize>, stamp: u32, memories: &mut [L::Memory]) {
         if Self::REMEMBERS {
             for (place, memory) in self.contacts.places[run].iter().zip(memories) {
-                let entry = &self.entries[*place as usize];
-                if entry.touched == stamp {
-                    *memory = entry.memory;
-                } else {
-                    *memory = L::Memory::default();
+                match self.entries.get(self.entry[*place as usize] as usize) {
+                    Some(entry) if entry.touched == stamp => *memory = entry.memory,
+                    _ => *memory = L::Memory::default(),
                 }
             }
         }
@@ -292,10 +321,17 @@ impl<L: ContactLaw> Candidates<L> {
     pub(crate) fn keep(&mut self, run: Range<usize>, stamp: u32, memories: &[L::Memory]) {
         if Self::REMEMBERS {
             for (place, memory) in self.contacts.places[run].iter().zip(memories) {
-                self.entries[*place as usize] = Entry {
+                let entry = &mut self.entry[*place as usize];
+                let kept = Entry {
                     touched: stamp,
                     memory: *memory,
                 };
+                if let Some(old) = self.entries.get_mut(*entry as usize) {
+                    *old = kept;
+                } else {
+                    *entry = self.entries.len() as u32;
+                    self.entries.push(kept);
+                }
             }
         }
     }
@@ -307,6 +343,6 @@ impl<L: ContactLaw> Candidates<L> {
             + size_of::<Entry<L::Memory>>() * self.entries.capacity()
             + size_of::<L::Coefficients>() * self.prepared.capacity()
             + size_of::<[u32; 2]>() * contacts.bodies.capacity()
-            + size_of::<u32>() * contacts.places.capacity()
+            + size_of::<u32>() * (self.entry.capacity() + contacts.places.capacity())
     }
 }

@@ -1,8 +1,8 @@
 //! Detection: candidates are proposed, sorted into the one order in which contacts are evaluated, and
 //! narrowed down to those that touch.
 
-use super::block::{Block, Listing};
-use super::candidates::Remembered;
+use super::block::{Block, Listing, Memories};
+use super::candidates::{Remembered, make_room};
 use super::engine::Engine;
 use super::error::StepError;
 use crate::cavity::Cavity;
@@ -36,28 +36,24 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
     /// Broad phase: lists candidates, and hands the memory of contacts over to the new list.
     fn detect(&mut self) -> Result<(), StepError> {
-        self.scratch.memory.iter_mut().for_each(Vec::clear);
-        for block in &mut self.blocks {
-            block.clear(self.world.stamp, &mut self.scratch.memory);
-        }
-        self.scratch.memory[0].sort_unstable_by_key(Remembered::pair);
+        let stamp = self.world.stamp;
+        all_blocks(&mut self.blocks, &|block| {
+            block.clear(stamp);
+            true
+        });
         self.list()
     }
 
     /// Gives contacts the memories that [`remembered`](Self::remembered) saved.
-    pub(crate) fn recall(
-        &mut self,
-        memory: &[Vec<Remembered<L::Memory>>; 2],
-    ) -> Result<(), StepError> {
+    pub(crate) fn recall(&mut self, memory: &Memories<L>) -> Result<(), StepError> {
         for block in &mut self.blocks {
-            block.clear(self.world.stamp, &mut self.scratch.memory);
+            block.clear(self.world.stamp);
+            block.recall(memory);
         }
-        self.scratch.memory.clone_from(memory);
         self.list()
     }
 
-    /// Lists candidates in blocks that are empty; those that remember have their memory in the
-    /// scratch.
+    /// Lists candidates in blocks that are empty.
     fn list(&mut self) -> Result<(), StepError> {
         self.scratch.listed = false;
         self.detections += 1;
@@ -65,9 +61,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         self.propose()?;
         self.list_candidates();
         let scene = self.world.scene(&self.particles, 0.0);
-        let memory = &self.scratch.memory;
         all_blocks(&mut self.blocks, &|block| {
-            block.finish(&scene, memory);
+            block.finish(&scene);
             true
         });
         for block in &mut self.blocks {
@@ -120,6 +115,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 *row = end;
             }
             // Filling a row from its end moves the end to the start.
+            make_room(&mut scratch.partners, end as usize);
             scratch.partners.resize(end as usize, 0);
             for &[first, second] in proposals.iter().rev() {
                 let place = &mut rows[first as usize + 1];
@@ -146,7 +142,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     }
 
     /// Memories of all contacts, pairs and walls, by slot.
-    pub(crate) fn remembered(&self) -> [Vec<Remembered<L::Memory>>; 2] {
+    pub(crate) fn remembered(&self) -> Memories<L> {
         let mut memory = [Vec::new(), Vec::new()];
         for block in &self.blocks {
             block.remember(self.world.stamp, &mut memory);

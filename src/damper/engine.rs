@@ -4,7 +4,6 @@
 use glam::DVec3;
 
 use super::block::{BLOCK, Block, Place, room_for};
-use super::candidates::Remembered;
 use super::error::StepError;
 use super::particles::Particles;
 use super::scene::{Room, Scene, WallLoad, World};
@@ -45,8 +44,8 @@ impl MountState {
 }
 
 /// What stays between steps only to save work.
-#[derive(Debug, Clone)]
-pub(crate) struct Scratch<L: ContactLaw> {
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Scratch {
     pub(crate) proposals: Pairs,
     /// Proposals by their lower slot: ends of the rows, and the higher slots.
     pub(crate) rows: Vec<u32>,
@@ -55,7 +54,6 @@ pub(crate) struct Scratch<L: ContactLaw> {
     pub(crate) reference: Vectors,
     /// The same while candidates are listed, for detectors.
     pub(crate) local: Vec<DVec3>,
-    pub(crate) memory: [Vec<Remembered<L::Memory>>; 2],
     /// Whether the candidates may still be used.
     pub(crate) listed: bool,
     /// Where forces are summed up, in turns with the column of accelerations, if both are wanted.
@@ -68,47 +66,23 @@ pub(crate) struct Scratch<L: ContactLaw> {
     pub(crate) gain: Vec<DVec3>,
 }
 
-impl<L: ContactLaw> Scratch<L> {
+impl Scratch {
     /// Scratch for a bed of `particles`.
     pub(crate) fn new(particles: usize) -> Self {
         let mut scratch = Self::default();
         scratch.proposals.reserve(room_for(particles));
         scratch.partners.reserve(room_for(particles));
-        for memory in &mut scratch.memory {
-            memory.reserve(room_for(particles));
-        }
         scratch
     }
 
     /// Memory in bytes that it has reserved.
     pub(crate) fn reserved_bytes(&self) -> usize {
         let vectors = [&self.local, &self.velocity, &self.spin];
-        let remembered = self.memory.iter().map(Vec::capacity).sum::<usize>();
         size_of::<DVec3>() * vectors.map(Vec::capacity).iter().sum::<usize>()
             + size_of::<u32>() * (self.rows.capacity() + self.partners.capacity())
-            + size_of::<Remembered<L::Memory>>() * remembered
             + self.reference.reserved_bytes()
             + self.force.reserved_bytes()
             + self.proposals.reserved_bytes()
-    }
-}
-
-impl<L: ContactLaw> Default for Scratch<L> {
-    fn default() -> Self {
-        Self {
-            proposals: Pairs::default(),
-            rows: Vec::new(),
-            partners: Vec::new(),
-            reference: Vectors::default(),
-            local: Vec::new(),
-            memory: [Vec::new(), Vec::new()],
-            listed: false,
-            force: Vectors::default(),
-            velocity: Vec::new(),
-            spin: Vec::new(),
-            rates: Vec::new(),
-            gain: Vec::new(),
-        }
     }
 }
 
@@ -122,7 +96,7 @@ pub(crate) struct Engine<C, L: ContactLaw, M, D> {
     pub(crate) particles: Particles,
     pub(crate) mount_state: MountState,
     pub(crate) blocks: Vec<Block<L>>,
-    pub(crate) scratch: Scratch<L>,
+    pub(crate) scratch: Scratch,
     /// Loads of the particles on each wall, all cavities in turn.
     pub(crate) wall_loads: Vec<WallLoad>,
     /// Forces of the particles on each container.
@@ -237,9 +211,13 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             });
         }
         for component in torque.components_mut() {
-            update(component, &self.particles.inverse_inertia, |torque, inverse| {
-                *torque *= inverse;
-            });
+            update(
+                component,
+                &self.particles.inverse_inertia,
+                |torque, inverse| {
+                    *torque *= inverse;
+                },
+            );
         }
         let finite = force.is_finite() && torque.is_finite();
         let before = std::mem::replace(&mut self.particles.acceleration, force);
@@ -366,10 +344,7 @@ fn evaluate_unwatched<C: Cavity, L: ContactLaw, const END: bool>(
         _ => {
             let (first, second) = blocks.split_at_mut(blocks.len() / 2);
             let count = first.iter().map(|block| block.slots.len()).sum();
-            let sums = (
-                split_off(&mut force, count),
-                split_off(&mut torque, count),
-            );
+            let sums = (split_off(&mut force, count), split_off(&mut torque, count));
             both(
                 || evaluate_unwatched::<C, L, END>(first, scene, sums),
                 || evaluate_unwatched::<C, L, END>(second, scene, (force, torque)),

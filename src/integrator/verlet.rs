@@ -41,9 +41,14 @@ fn predict(columns: Columns<'_>, kept: &mut Vec<f64>, dt: f64) {
 /// Turns the predicted velocities into v + (a + a') dt/2.
 fn correct(columns: Columns<'_>, kept: &[f64], dt: f64) {
     let half = 0.5 * dt;
-    update_by_two(columns.velocity, columns.acceleration, kept, |v, new, old| {
-        *v += (new - old) * half;
-    });
+    update_by_two(
+        columns.velocity,
+        columns.acceleration,
+        kept,
+        |v, new, old| {
+            *v += (new - old) * half;
+        },
+    );
 }
 
 impl Integrator for VelocityVerlet {
