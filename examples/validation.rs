@@ -3,7 +3,7 @@
 //!
 //! `cargo run --release --example validation` leaves `target/validation/validation.csv` and four
 //! pictures beside it; `-- --quick` takes the short form that `cargo test` runs. It fails if a case
-//! does. Names of families (`-- contacts rest`) restrict it to those.
+//! does. Names of families (`-- contacts rest`) restrict it to those, `-- pictures` to the pictures.
 
 #[path = "../tests/validation/cases.rs"]
 mod cases;
@@ -24,6 +24,9 @@ use chart::{Chart, Line};
 use particle_damper::{Damping, Ending};
 use plotters::prelude::SeriesLabelPosition;
 
+/// Stands for the pictures among the families.
+const PICTURES: &str = "pictures";
+
 type Failure = Box<dyn Error + Send + Sync>;
 
 fn main() -> Result<(), Failure> {
@@ -35,9 +38,9 @@ fn main() -> Result<(), Failure> {
     };
     let named: Vec<&String> = arguments.iter().filter(|name| *name != "--quick").collect();
     for name in &named {
-        if !FAMILIES.iter().any(|(family, _)| family == name) {
+        if *name != PICTURES && !FAMILIES.iter().any(|(family, _)| family == name) {
             let known: Vec<&str> = FAMILIES.iter().map(|(family, _)| *family).collect();
-            return Err(format!("{name} is none of {}", known.join(", ")).into());
+            return Err(format!("{name} is none of {}, {PICTURES}", known.join(", ")).into());
         }
     }
 
@@ -47,11 +50,12 @@ fn main() -> Result<(), Failure> {
             continue;
         }
         let begin = Instant::now();
+        println!("\n{family} ...");
         let cases = compute(form);
         let broken = cases.iter().filter(|case| !case.holds()).count();
         failed += broken;
         println!(
-            "\n{family}: {} cases, {broken} fail, {:.1} s",
+            "{family}: {} cases, {broken} fail, {:.1} s",
             cases.len(),
             begin.elapsed().as_secs_f64()
         );
@@ -67,7 +71,7 @@ fn main() -> Result<(), Failure> {
         "family,case,source,expected,got,deviation,tolerance,kind,verdict",
         rows.iter().cloned(),
     )?;
-    if named.is_empty() {
+    if named.is_empty() || named.iter().any(|name| *name == PICTURES) {
         draw(&directory)?;
     }
     println!("{} cases, {failed} fail", rows.len());

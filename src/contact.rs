@@ -134,11 +134,35 @@ impl Contact {
     }
 }
 
-/// Whether two bodies that overlap by `overlap` (m), and approach or part with `speed` (m/s), may have
-/// met or may part within a step of `time_step` (s). Within it they may be twice as fast.
-#[inline(always)]
-pub(crate) const fn is_at_edge(overlap: f64, speed: f64, time_step: f64) -> bool {
-    overlap < 2.0 * time_step * speed.abs()
+/// What a law sees besides of a contact that may begin or end within a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Edge {
+    /// Length of the step in s: the force of a contact is taken at intervals of this length.
+    pub time_step: f64,
+    /// How fast the bodies' speed of separation along the normal changed when forces were evaluated
+    /// last, in m/s^2.
+    pub acceleration: f64,
+}
+
+impl Edge {
+    /// A step of `time_step` (s), and the acceleration along the normal (m/s^2).
+    #[must_use]
+    #[inline(always)]
+    pub const fn new(time_step: f64, acceleration: f64) -> Self {
+        Self {
+            time_step,
+            acceleration,
+        }
+    }
+
+    /// Whether two bodies that overlap by `overlap` (m) and approach or part with `speed` (m/s) may
+    /// have met, or may part, within a step of `time_step` (s). Speeds within it may be twice as high.
+    #[must_use]
+    #[inline(always)]
+    pub const fn is_near(overlap: f64, speed: f64, time_step: f64) -> bool {
+        overlap < 2.0 * time_step * speed.abs()
+    }
 }
 
 /// The force of a contact on its first body; the second body feels the opposite.

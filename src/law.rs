@@ -4,7 +4,7 @@ mod restitution;
 
 pub use restitution::{RestitutionCoefficients, RestitutionImpulse};
 
-use crate::contact::{Bodies, Contact, ContactForce, Stored};
+use crate::contact::{Bodies, Contact, ContactForce, Edge, Stored};
 use crate::error::ValueError;
 use crate::material::MaterialId;
 
@@ -145,17 +145,17 @@ pub trait ContactLaw {
         false
     }
 
-    /// The force, and what the contact remembers, where the bodies may have met or may part within a
-    /// step of `time_step` (s): where they overlap by less than twice the way that they approach or
-    /// part in it. Asked instead of [`force`](Self::force) and [`advance`](Self::advance), of a law
-    /// that says so ([`has_edges`](Self::has_edges)). A contact sets in between two evaluations: if its
-    /// force starts like a power p of time, they miss an impulse of the power p + 1 of the step.
+    /// The force, and what the contact remembers, where the bodies may have met or may part within
+    /// the step ([`Edge::is_near`]). Asked instead of [`force`](Self::force) and
+    /// [`advance`](Self::advance) if the law [has edges](Self::has_edges) to be mended: a contact sets in between two
+    /// evaluations, and if its force starts like a power p of time they miss an impulse of the power
+    /// p + 1 of the step.
     fn at_edge(
         &self,
         coefficients: &Self::Coefficients,
         contact: &Contact,
         memory: &Self::Memory,
-        _time_step: f64,
+        _edge: &Edge,
     ) -> (ContactForce, Self::Memory) {
         (
             self.force(coefficients, contact, memory),
@@ -231,9 +231,9 @@ macro_rules! forward_law {
                 coefficients: &Self::Coefficients,
                 contact: &Contact,
                 memory: &Self::Memory,
-                time_step: f64,
+                edge: &Edge,
             ) -> (ContactForce, Self::Memory) {
-                (**self).at_edge(coefficients, contact, memory, time_step)
+                (**self).at_edge(coefficients, contact, memory, edge)
             }
 
             fn stored(

@@ -122,7 +122,7 @@ pub mod response;
 pub use glam;
 
 pub use cavity::{Cavity, Cuboid, Slot};
-pub use contact::{Bodies, Body, Contact, ContactForce, Stored};
+pub use contact::{Bodies, Body, Contact, ContactForce, Edge, Stored};
 pub use damper::{
     BuildError, Builder, Damper, Partner, Reaction, RestoreError, Snapshot, StepError, WallLoad,
 };

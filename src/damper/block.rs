@@ -15,7 +15,7 @@ use super::Partner;
 use super::candidates::{Candidates, Remembered, Touch};
 use super::scene::{PairContact, Scene, WallLoad, wall_contact};
 use crate::cavity::Cavity;
-use crate::contact::{Contact, ContactForce, is_at_edge};
+use crate::contact::{Contact, ContactForce, Edge};
 use crate::law::{ContactLaw, LawError};
 use crate::observer::{ContactEvent, Observer};
 
@@ -320,8 +320,10 @@ fn answer<L: ContactLaw, const END: bool>(
     time_step: f64,
 ) -> ContactForce {
     let memory = list.memory(place, stamp);
-    if law.has_edges() && is_at_edge(contact.overlap, contact.approach_speed(), time_step) {
-        let (answer, memory) = law.at_edge(kind, contact, &memory, time_step);
+    if law.has_edges() && Edge::is_near(contact.overlap, contact.approach_speed(), time_step) {
+        let acceleration = contact.acceleration.dot(contact.normal);
+        let edge = Edge::new(time_step, acceleration);
+        let (answer, memory) = law.at_edge(kind, contact, &memory, &edge);
         if END {
             list.keep(place, stamp.wrapping_add(1), memory);
         }

@@ -3,7 +3,7 @@
 use glam::{DVec3, dvec3};
 
 use super::ContactLaw;
-use crate::contact::{Bodies, Body, Contact, ContactForce, is_at_edge};
+use crate::contact::{Bodies, Body, Contact, ContactForce, Edge};
 use crate::damper::StepError;
 use crate::integrator::{Columns, Integrator, Motions, Stage, System};
 use crate::material::{Interaction, Material, Materials};
@@ -120,11 +120,11 @@ impl<'l, L: ContactLaw> Collision<'l, L> {
         contact
     }
 
-    fn answer(&self, contact: &Contact) -> (ContactForce, L::Memory) {
+    fn answer(&self, contact: &Contact, edge: Edge) -> (ContactForce, L::Memory) {
         let (law, kind, memory) = (self.law, &self.coefficients, &self.memory);
         let speed = contact.approach_speed();
-        if law.has_edges() && is_at_edge(contact.overlap, speed, self.time_step) {
-            return law.at_edge(kind, contact, memory, self.time_step);
+        if law.has_edges() && Edge::is_near(contact.overlap, speed, self.time_step) {
+            return law.at_edge(kind, contact, memory, &edge);
         }
         let answer = law.force(kind, contact, memory);
         (answer, law.advance(kind, contact, memory))
@@ -187,12 +187,13 @@ impl<L: ContactLaw> System for Collision<'_, L> {
 
     fn evaluate(&mut self, elapsed: f64, stage: Stage) -> Result<(), StepError> {
         let contact = self.contact(elapsed);
+        let edge = Edge::new(self.time_step, contact.acceleration.dot(contact.normal));
         self.acceleration.fill(DVec3::ZERO);
         self.spin_rate.fill(DVec3::ZERO);
         let touching = contact.overlap > 0.0;
         let mut advanced = L::Memory::default();
         if touching {
-            let (answer, memory) = self.answer(&contact);
+            let (answer, memory) = self.answer(&contact, edge);
             let force = answer.normal * contact.normal + answer.tangential;
             let signs = [1.0, -1.0];
             for (n, sign) in signs.into_iter().enumerate().take(self.position.len()) {

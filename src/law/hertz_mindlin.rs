@@ -3,7 +3,7 @@ use glam::DVec3;
 use super::friction::{PART_PER_STEP, Rolling, SLIP_MOBILITY, share};
 use super::normal::{Normal, NormalCoefficients, NormalForce, strict_law};
 use super::{ContactLaw, LawError};
-use crate::contact::{Bodies, Contact, ContactForce, Stored};
+use crate::contact::{Bodies, Contact, ContactForce, Edge, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::Materials;
 
@@ -191,11 +191,9 @@ impl ContactLaw for HertzMindlin {
         coefficients: &Coefficients,
         contact: &Contact,
         memory: &TangentialSpring,
-        time_step: f64,
+        edge: &Edge,
     ) -> (ContactForce, TangentialSpring) {
-        let normal = self
-            .normal
-            .at_edge(&coefficients.normal, contact, time_step);
+        let normal = self.normal.at_edge(&coefficients.normal, contact, edge);
         let Tangential { load, force } = self.tangential(coefficients, contact, &normal, memory);
         let answer = ContactForce {
             normal: normal.force,

@@ -1,7 +1,7 @@
 use super::friction::{Friction, Grip};
 use super::normal::{NormalCoefficients, NormalForce, strict_law};
 use super::{ContactLaw, LawError};
-use crate::contact::{Bodies, Contact, ContactForce, Stored};
+use crate::contact::{Bodies, Contact, ContactForce, Edge, Stored};
 use crate::material::Materials;
 
 /// The strict law of the paper: Hertz's spring with damping along the normal, sliding friction
@@ -131,11 +131,9 @@ impl ContactLaw for HertzTsuji {
         coefficients: &Coefficients,
         contact: &Contact,
         (): &(),
-        time_step: f64,
+        edge: &Edge,
     ) -> (ContactForce, ()) {
-        let normal = self
-            .normal
-            .at_edge(&coefficients.normal, contact, time_step);
+        let normal = self.normal.at_edge(&coefficients.normal, contact, edge);
         (self.sliding(coefficients, contact, normal.force), ())
     }
 

@@ -4,7 +4,7 @@ use super::LawError;
 use super::damping::{Damping, Ending};
 use super::edge::Power;
 use super::hertz::ElasticImpact;
-use crate::contact::{Bodies, Contact, Stored};
+use crate::contact::{Bodies, Contact, Edge, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::{Interaction, Material, MaterialId, Materials};
 
@@ -20,9 +20,6 @@ const GAIN: f64 = 4.0;
 /// Enough steps to a contact for any restitution: what an impact without damping can gain is below
 /// 4/50^3, and a thousand bounces of one ball change its energy by less than 1e-4.
 const ELASTIC_STEPS: f64 = 50.0;
-
-/// How often the force at the start of a step is corrected by where it would have had the bodies.
-const ROUNDS: usize = 3;
 
 /// Bodies that just touched as the step began, to within rounding, have met in it.
 const JUST_NOW: f64 = 1.0 + 1e-6;
@@ -206,13 +203,13 @@ impl NormalForce {
         }
     }
 
-    /// The normal force where the bodies may have met or may part within a step `h` of now: with what
-    /// evaluations `h` apart miss made up for ([`edge`](super::edge)).
+    /// The normal force where the bodies may have met or may part within a step h of now: with what
+    /// evaluations h apart miss made up for ([`edge`](super::edge)).
     pub(super) fn at_edge(
         &self,
         coefficients: &NormalCoefficients,
         contact: &Contact,
-        h: f64,
+        edge: &Edge,
     ) -> Normal {
         let mut normal = self.at(coefficients, contact);
         let NormalCoefficients {
@@ -220,23 +217,11 @@ impl NormalForce {
             damping,
             mobility,
         } = *coefficients;
-        let (overlap, approach) = (contact.overlap, contact.approach_speed());
-        // Where the bodies were when the step began, and what this contact has done to them since.
-        let mut gained = normal.force * mobility * contact.elapsed;
-        for _ in 0..ROUNDS {
-            let mean = approach + 0.5 * gained;
-            let mut before = *contact;
-            before.overlap -= mean * contact.elapsed;
-            before.velocity -= contact.normal * gained;
-            gained = if before.overlap > 0.0 {
-                self.at(coefficients, &before).force * mobility * contact.elapsed
-            } else {
-                0.0
-            };
-        }
-        // The mean speed since then, which is that of touch if they touched since; before the end of
-        // the step they may have touched in the one before, and the speed at its start is nearer.
-        let coming = approach + if contact.elapsed < h { 1.0 } else { 0.5 } * gained;
+        let (overlap, h) = (contact.overlap, edge.time_step);
+        // The mean speed since the step began, which is that of touch if they touched since; before its
+        // end they may have touched in the step before, and the speed at its start is nearer.
+        let back = if contact.elapsed < h { 1.0 } else { 0.5 } * contact.elapsed;
+        let coming = contact.approach_speed() + back * edge.acceleration;
         let way = coming * h;
         if overlap < way * JUST_NOW {
             let (part, power) = (overlap / way, self.damping.power());
@@ -247,7 +232,7 @@ impl NormalForce {
         // A spring ends as it sets in. Where damping ends, the force is smooth if it never pulls, and
         // a pull slows the bodies so much that the end cannot be foretold.
         let way = (normal.force * h * mobility - coming) * h;
-        if approach < 0.0 && overlap < way {
+        if contact.approach_speed() < 0.0 && overlap < way {
             let part = overlap / way;
             let more = Power::ThreeHalves.sampled(part) - Power::ThreeHalves.of(part);
             let spring = stiffness * Power::ThreeHalves.of(way) * more;
