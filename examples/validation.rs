@@ -20,7 +20,7 @@ use std::time::Instant;
 use cases::case::{Case, Tolerance};
 use cases::oblique::{Law, MEASURED, rebound, rigid_e_t};
 use cases::{FAMILIES, Form, contacts, impact_damper, inelastic};
-use chart::{Chart, Line};
+use chart::{Chart, Line, POINTS};
 use particle_damper::{Damping, Ending};
 use plotters::prelude::SeriesLabelPosition;
 
@@ -163,10 +163,19 @@ fn restitution(path: &Path) -> Result<(), Failure> {
         logarithmic: [true, false],
         legend: SeriesLabelPosition::UpperRight,
     };
+    let constant = speeds.clone().map(|v| (v, 0.75)).collect();
+    let half = curve(Damping::Viscoelastic);
     let lines = [
-        line("d^(1/2) damping, theory", 0, 0, false, theory),
-        line("d^(1/2) damping", 1, 4, true, curve(Damping::Viscoelastic)),
-        line("d^(1/4) damping", 2, 4, true, curve(Damping::Tsuji)),
+        line("d^(1/2) damping, exact", 0, 0, false, theory),
+        line("d^(1/2) damping, HertzTsuji", 1, POINTS, true, half),
+        line("d^(1/4) damping, exact", 3, 0, false, constant),
+        line(
+            "d^(1/4) damping, HertzTsuji",
+            2,
+            POINTS,
+            true,
+            curve(Damping::Tsuji),
+        ),
     ];
     chart.draw(path, &lines)?;
     output::say_where("picture", path);
@@ -187,7 +196,7 @@ fn oblique(path: &Path) -> Result<(), Failure> {
         .map(|angle| (angle, rigid_e_t(angle, 0.092, 0.98)))
         .collect();
     let chart = Chart {
-        title: "Oblique impact of aluminium oxide on glass, 3.9 m/s",
+        title: "Oblique impact of aluminium oxide on glass: 3.9 m/s, e 0.98, mu 0.092",
         axes: [
             "angle from the normal (degrees)",
             "tangential speed after / before",
@@ -208,7 +217,13 @@ fn oblique(path: &Path) -> Result<(), Failure> {
             false,
             curve(Law::RestitutionImpulse),
         ),
-        line("measured, Kharaz et al. 2001", 4, 1, true, MEASURED.into()),
+        line(
+            "measured, Kharaz, Gorham & Salman 2001",
+            4,
+            POINTS,
+            true,
+            MEASURED.into(),
+        ),
     ];
     chart.draw(path, &lines)?;
     output::say_where("picture", path);
@@ -250,7 +265,13 @@ fn masri_caughey(path: &Path) -> Result<(), Failure> {
             false,
             theory.collect(),
         ),
-        line("RestitutionImpulse", 2, 2, true, computed?),
+        line(
+            "RestitutionImpulse; irregular under 32 and over 48 mm",
+            2,
+            POINTS,
+            true,
+            computed?,
+        ),
     ];
     chart.draw(path, &lines)?;
     output::say_where("picture", path);
@@ -262,9 +283,12 @@ fn loss(path: &Path) -> Result<(), Failure> {
     let all = || (5..=72).map(|n| 0.05 * f64::from(n));
     let chart = Chart {
         title: "Completely inelastic mass on a shaken floor",
-        axes: ["G = A w^2 / g", "loss per cycle / (m A^2 w^2)"],
+        axes: [
+            "G = A ω² / g, acceleration of the floor over gravity",
+            "loss per cycle / (m A² ω²)",
+        ],
         x: 0.0..3.7,
-        y: 0.0..5.0,
+        y: 0.0..3.0,
         logarithmic: [false, false],
         legend: SeriesLabelPosition::UpperLeft,
     };
@@ -273,8 +297,14 @@ fn loss(path: &Path) -> Result<(), Failure> {
         .map(|g| (g, inelastic::on_floor_by_crate(g, 4000).loss))
         .collect();
     let lines = [
-        line("free flight and sticking", 0, 0, false, theory),
-        line("RestitutionImpulse", 2, 2, true, computed),
+        line("exact: free flight and sticking", 0, 0, false, theory),
+        line(
+            "RestitutionImpulse, 4000 steps a cycle",
+            2,
+            POINTS,
+            true,
+            computed,
+        ),
     ];
     chart.draw(path, &lines)?;
     output::say_where("picture", path);
