@@ -3,7 +3,7 @@
 //!
 //! `cargo run --release --example validation` leaves `target/validation/validation.csv` and four
 //! pictures beside it; `-- --quick` takes the short form that `cargo test` runs. It fails if a case
-//! does. Names of families (`-- contacts rest`) restrict it to those.
+//! does. Names of families (`-- contacts rest`) restrict it to those, `-- pictures` to the pictures.
 
 #[path = "../tests/validation/cases.rs"]
 mod cases;
@@ -20,9 +20,12 @@ use std::time::Instant;
 use cases::case::{Case, Tolerance};
 use cases::oblique::{Law, MEASURED, rebound, rigid_e_t};
 use cases::{FAMILIES, Form, contacts, impact_damper, inelastic};
-use chart::{Chart, Line};
+use chart::{Chart, Line, POINTS};
 use particle_damper::{Damping, Ending};
 use plotters::prelude::SeriesLabelPosition;
+
+/// Stands for the pictures among the families.
+const PICTURES: &str = "pictures";
 
 type Failure = Box<dyn Error + Send + Sync>;
 
@@ -35,9 +38,9 @@ fn main() -> Result<(), Failure> {
     };
     let named: Vec<&String> = arguments.iter().filter(|name| *name != "--quick").collect();
     for name in &named {
-        if !FAMILIES.iter().any(|(family, _)| family == name) {
+        if *name != PICTURES && !FAMILIES.iter().any(|(family, _)| family == name) {
             let known: Vec<&str> = FAMILIES.iter().map(|(family, _)| *family).collect();
-            return Err(format!("{name} is none of {}", known.join(", ")).into());
+            return Err(format!("{name} is none of {}, {PICTURES}", known.join(", ")).into());
         }
     }
 
@@ -47,11 +50,12 @@ fn main() -> Result<(), Failure> {
             continue;
         }
         let begin = Instant::now();
+        println!("\n{family} ...");
         let cases = compute(form);
         let broken = cases.iter().filter(|case| !case.holds()).count();
         failed += broken;
         println!(
-            "\n{family}: {} cases, {broken} fail, {:.1} s",
+            "{family}: {} cases, {broken} fail, {:.1} s",
             cases.len(),
             begin.elapsed().as_secs_f64()
         );
@@ -67,7 +71,7 @@ fn main() -> Result<(), Failure> {
         "family,case,source,expected,got,deviation,tolerance,kind,verdict",
         rows.iter().cloned(),
     )?;
-    if named.is_empty() {
+    if named.is_empty() || named.iter().any(|name| *name == PICTURES) {
         draw(&directory)?;
     }
     println!("{} cases, {failed} fail", rows.len());
@@ -159,10 +163,19 @@ fn restitution(path: &Path) -> Result<(), Failure> {
         logarithmic: [true, false],
         legend: SeriesLabelPosition::UpperRight,
     };
+    let constant = speeds.clone().map(|v| (v, 0.75)).collect();
+    let half = curve(Damping::Viscoelastic);
     let lines = [
-        line("d^(1/2) damping, theory", 0, 0, false, theory),
-        line("d^(1/2) damping", 1, 4, true, curve(Damping::Viscoelastic)),
-        line("d^(1/4) damping", 2, 4, true, curve(Damping::Tsuji)),
+        line("d^(1/2) damping, exact", 0, 0, false, theory),
+        line("d^(1/2) damping, HertzTsuji", 1, POINTS, true, half),
+        line("d^(1/4) damping, exact", 3, 0, false, constant),
+        line(
+            "d^(1/4) damping, HertzTsuji",
+            2,
+            POINTS,
+            true,
+            curve(Damping::Tsuji),
+        ),
     ];
     chart.draw(path, &lines)?;
     output::say_where("picture", path);
@@ -183,7 +196,7 @@ fn oblique(path: &Path) -> Result<(), Failure> {
         .map(|angle| (angle, rigid_e_t(angle, 0.092, 0.98)))
         .collect();
     let chart = Chart {
-        title: "Oblique impact of aluminium oxide on glass, 3.9 m/s",
+        title: "Oblique impact of aluminium oxide on glass: 3.9 m/s, e 0.98, mu 0.092",
         axes: [
             "angle from the normal (degrees)",
             "tangential speed after / before",
@@ -204,7 +217,13 @@ fn oblique(path: &Path) -> Result<(), Failure> {
             false,
             curve(Law::RestitutionImpulse),
         ),
-        line("measured, Kharaz et al. 2001", 4, 1, true, MEASURED.into()),
+        line(
+            "measured, Kharaz, Gorham & Salman 2001",
+            4,
+            POINTS,
+            true,
+            MEASURED.into(),
+        ),
     ];
     chart.draw(path, &lines)?;
     output::say_where("picture", path);
@@ -246,7 +265,13 @@ fn masri_caughey(path: &Path) -> Result<(), Failure> {
             false,
             theory.collect(),
         ),
-        line("RestitutionImpulse", 2, 2, true, computed?),
+        line(
+            "RestitutionImpulse; irregular under 32 and over 48 mm",
+            2,
+            POINTS,
+            true,
+            computed?,
+        ),
     ];
     chart.draw(path, &lines)?;
     output::say_where("picture", path);
@@ -258,9 +283,12 @@ fn loss(path: &Path) -> Result<(), Failure> {
     let all = || (5..=72).map(|n| 0.05 * f64::from(n));
     let chart = Chart {
         title: "Completely inelastic mass on a shaken floor",
-        axes: ["G = A w^2 / g", "loss per cycle / (m A^2 w^2)"],
+        axes: [
+            "G = A ω² / g, acceleration of the floor over gravity",
+            "loss per cycle / (m A² ω²)",
+        ],
         x: 0.0..3.7,
-        y: 0.0..5.0,
+        y: 0.0..3.0,
         logarithmic: [false, false],
         legend: SeriesLabelPosition::UpperLeft,
     };
@@ -269,8 +297,14 @@ fn loss(path: &Path) -> Result<(), Failure> {
         .map(|g| (g, inelastic::on_floor_by_crate(g, 4000).loss))
         .collect();
     let lines = [
-        line("free flight and sticking", 0, 0, false, theory),
-        line("RestitutionImpulse", 2, 2, true, computed),
+        line("exact: free flight and sticking", 0, 0, false, theory),
+        line(
+            "RestitutionImpulse, 4000 steps a cycle",
+            2,
+            POINTS,
+            true,
+            computed,
+        ),
     ];
     chart.draw(path, &lines)?;
     output::say_where("picture", path);

@@ -8,13 +8,16 @@ use plotters::coord::ranged1d::ValueFormatter;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
+/// The dash of a line that is not drawn: its points are marked alone.
+pub(crate) const POINTS: i32 = -1;
+
 /// One line of a chart.
 #[derive(Debug)]
 pub(crate) struct Line {
     pub(crate) label: String,
     /// Number of the colour.
     pub(crate) colour: usize,
-    /// Length of the dashes in pixels; zero draws the line through.
+    /// Length of the dashes in pixels; zero draws the line through, [`POINTS`] does not draw it.
     pub(crate) dash: i32,
     /// Whether the points are marked.
     pub(crate) marked: bool,
@@ -90,16 +93,24 @@ impl Chart<'_> {
             let style = colour.stroke_width(2);
             let points = line.points.iter().copied();
             let dash = line.dash;
-            let legend = if dash == 0 {
+            let legend = if dash == POINTS {
+                let marks = points.clone();
+                chart.draw_series(marks.map(|point| Circle::new(point, 4, colour.filled())))?
+            } else if dash == 0 {
                 chart.draw_series(LineSeries::new(points.clone(), style))?
             } else {
                 chart.draw_series(DashedLineSeries::new(points.clone(), dash, dash, style))?
             };
-            let length = if dash == 0 { 32 } else { dash };
-            legend.label(&line.label).legend(move |(x, y)| {
-                DashedPathElement::new([(x, y), (x + 32, y)], length, length, style)
-            });
-            if line.marked {
+            let legend = legend.label(&line.label);
+            if dash == POINTS {
+                legend.legend(move |(x, y)| Circle::new((x + 16, y), 4, colour.filled()));
+            } else {
+                let length = if dash == 0 { 32 } else { dash };
+                legend.legend(move |(x, y)| {
+                    DashedPathElement::new([(x, y), (x + 32, y)], length, length, style)
+                });
+            }
+            if line.marked && dash != POINTS {
                 chart.draw_series(points.map(|point| Circle::new(point, 4, colour.filled())))?;
             }
         }
@@ -131,7 +142,7 @@ fn ticks(range: &Range<f64>) -> Vec<f64> {
                 .iter()
                 .map(move |&digit| f64::from(digit) * 10_f64.powi(exponent))
         })
-        .filter(|tick| range.contains(tick))
+        .filter(|tick| (range.start..=range.end).contains(tick))
         .collect()
 }
 

@@ -234,7 +234,7 @@ where
                 rooms,
                 reach,
                 stamp: 0,
-                time_step: 0.0,
+                time_step,
             },
             time: 0.0,
             detections: 0,

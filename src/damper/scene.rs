@@ -43,7 +43,7 @@ pub(crate) struct World<C, L: ContactLaw> {
     pub(crate) reach: f64,
     /// Number of the last accepted step; it wraps.
     pub(crate) stamp: u32,
-    /// Length of the step, s; zero before the first one.
+    /// Length of the step, s.
     pub(crate) time_step: f64,
 }
 

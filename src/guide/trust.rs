@@ -52,9 +52,9 @@
 //! |---|---|---|
 //! | 6 (the paper's) | 0.06 | 0.03 |
 //! | 8 (the default) | 0.035 | 0.02 |
-//! | 20 | 0.006 | 0.0015 |
-//! | 50 | 0.0009 | 0.0002 |
-//! | 100 | 0.0003 | 0.00005 |
+//! | 20 | 0.006 | 0.004 |
+//! | 50 | 0.0009 | 0.0015 |
+//! | 100 | 0.0003 | 0.0002 |
 //!
 //! The same error is made in each impact of the same speed on average, so it counts like a slightly
 //! lower restitution. A step for impacts of up to 0.5 m/s that are right to half a hundredth:

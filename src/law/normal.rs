@@ -21,8 +21,8 @@ const GAIN: f64 = 4.0;
 /// 4/50^3, and a thousand bounces of one ball change its energy by less than 1e-4.
 const ELASTIC_STEPS: f64 = 50.0;
 
-/// Bodies that just touched as the step began, to within rounding, have met in it.
-const JUST_NOW: f64 = 1.0 + 1e-6;
+/// Relative error of an overlap against the way in a step.
+const ROUNDING: f64 = 1e-6;
 
 /// The fewest steps to a contact in which damping takes more energy than integration can add.
 fn fewest_steps(restitution: f64) -> f64 {
@@ -223,10 +223,21 @@ impl NormalForce {
         let back = if contact.elapsed < h { 1.0 } else { 0.5 } * contact.elapsed;
         let coming = contact.approach_speed() + back * edge.acceleration;
         let way = coming * h;
-        if overlap < way * JUST_NOW {
-            let (part, power) = (overlap / way, self.damping.power());
+        let met = |part: f64| {
+            let power = self.damping.power();
             let spring = stiffness * Power::ThreeHalves.of(way) * Power::ThreeHalves.sampled(part);
-            normal.force = spring + damping * coming * power.of(way) * power.sampled(part);
+            spring + damping * coming * power.of(way) * power.sampled(part)
+        };
+        // To within rounding, what tells whether they touched already as the step began is whether they
+        // were slowed down then.
+        let part = overlap / way;
+        let in_step = if (part - 1.0).abs() < ROUNDING {
+            edge.acceleration < 0.5 * mobility * met(0.0)
+        } else {
+            overlap < way
+        };
+        if in_step {
+            normal.force = met(part);
             return normal;
         }
         // A spring ends as it sets in. Where damping ends, the force is smooth if it never pulls, and

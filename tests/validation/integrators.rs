@@ -228,9 +228,9 @@ fn steps_to_a_contact() -> Vec<Case> {
     for (steps, bounds) in [
         (6.0, [0.06, 0.03]),
         (8.0, [0.035, 0.02]),
-        (20.0, [0.006, 1.5e-3]),
-        (50.0, [9e-4, 2e-4]),
-        (100.0, [3e-4, 5e-5]),
+        (20.0, [0.006, 0.004]),
+        (50.0, [9e-4, 1.5e-3]),
+        (100.0, [3e-4, 2e-4]),
     ] {
         let worst = |errors: &dyn Fn(Damping, f64) -> f64| {
             let both = [Damping::Viscoelastic, Damping::Tsuji].into_iter();
