@@ -88,6 +88,10 @@ pub struct Contact {
     /// What `velocity` becomes over the step by everything but contacts (gravity, and what moves
     /// the container), in m/s. Differs from `velocity` for impulses at walls alone.
     pub velocity_ahead: DVec3,
+    /// Speed that everything but contacts (gravity, and what moves the container) gives a free
+    /// particle relative to its container over the step, in m/s: bodies that approach no faster than
+    /// so may be at rest. Laws that are evaluated at every stage see zero.
+    pub fall: f64,
     /// The rate at which `velocity` changed when forces were evaluated last, in m/s^2: with it the
     /// slip over a step is known to second order. Laws that are evaluated once a step see zero.
     pub acceleration: DVec3,
@@ -112,6 +116,7 @@ impl Contact {
             overlap,
             velocity,
             velocity_ahead: velocity,
+            fall: 0.0,
             acceleration: DVec3::ZERO,
             spins: [DVec3::ZERO; 2],
             elapsed: 0.0,
@@ -182,5 +187,13 @@ impl ContactForce {
             tangential,
             couple: DVec3::ZERO,
         }
+    }
+
+    /// Adds another force.
+    #[inline]
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.normal += other.normal;
+        self.tangential += other.tangential;
+        self.couple += other.couple;
     }
 }

@@ -136,6 +136,35 @@ pub trait ContactLaw {
         *memory
     }
 
+    /// The force that a contact of a [`Sequential`](Evaluation::Sequential) law starts the step with,
+    /// before any is struck: `part` (0 to 1) of what its memory of the step before suggests. The engine
+    /// asks contacts that remember something, with the velocities at the start of the step, and asks
+    /// for a smaller part of what the memory has become if the bed would gain energy. None unless set.
+    #[inline]
+    fn carry(
+        &self,
+        _coefficients: &Self::Coefficients,
+        _contact: &Contact,
+        _memory: &mut Self::Memory,
+        _part: f64,
+    ) -> ContactForce {
+        ContactForce::default()
+    }
+
+    /// What a [`Sequential`](Evaluation::Sequential) law adds to the force on the first body when it
+    /// comes to a contact, which may be several times in a step. It may change the memory;
+    /// [`advance`](Self::advance) is not called for such a law. Unless set, the force and nothing
+    /// else.
+    #[inline]
+    fn strike(
+        &self,
+        coefficients: &Self::Coefficients,
+        contact: &Contact,
+        memory: &mut Self::Memory,
+    ) -> ContactForce {
+        self.force(coefficients, contact, memory)
+    }
+
     /// What the contact holds and can give back, with what it remembers at the end of the step.
     fn stored(
         &self,
@@ -192,6 +221,27 @@ macro_rules! forward_law {
                 memory: &Self::Memory,
             ) -> Self::Memory {
                 (**self).advance(coefficients, contact, memory)
+            }
+
+            #[inline]
+            fn carry(
+                &self,
+                coefficients: &Self::Coefficients,
+                contact: &Contact,
+                memory: &mut Self::Memory,
+                part: f64,
+            ) -> ContactForce {
+                (**self).carry(coefficients, contact, memory, part)
+            }
+
+            #[inline]
+            fn strike(
+                &self,
+                coefficients: &Self::Coefficients,
+                contact: &Contact,
+                memory: &mut Self::Memory,
+            ) -> ContactForce {
+                (**self).strike(coefficients, contact, memory)
             }
 
             fn stored(

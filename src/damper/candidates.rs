@@ -249,6 +249,12 @@ impl<L: ContactLaw> Candidates<L> {
         self.prepared.get(place as usize)
     }
 
+    /// Whether a contact touched at the end of step `stamp`, and may remember something.
+    #[inline(always)]
+    pub(crate) fn remembers(&self, place: u32, stamp: u32) -> bool {
+        Self::REMEMBERS && self.touched[place as usize] == stamp
+    }
+
     /// What a contact remembers from the end of step `stamp`: the default if it did not touch then.
     #[inline(always)]
     pub(crate) fn memory(&self, place: u32, stamp: u32) -> L::Memory {

@@ -9,6 +9,7 @@ use super::error::StepError;
 use super::particles::Particles;
 use super::scene::{Room, WallLoad, World};
 use crate::cavity::Cavity;
+use crate::contact::ContactForce;
 use crate::detector::{Detector, Pairs};
 use crate::integrator::Stage;
 use crate::law::{ContactLaw, Evaluation};
@@ -63,6 +64,11 @@ pub(crate) struct Scratch<L: ContactLaw> {
     pub(crate) rates: Vec<f64>,
     /// What each container's velocity gains over the step without impulses.
     pub(crate) gain: Vec<DVec3>,
+    /// What a free particle gains on each container over the step, m/s.
+    pub(crate) fall: Vec<f64>,
+    /// What every contact has given in the step so far, in the order of the lists, if an observer
+    /// wants to know.
+    pub(crate) given: Vec<ContactForce>,
 }
 
 impl<L: ContactLaw> Scratch<L> {
@@ -109,6 +115,8 @@ impl<L: ContactLaw> Default for Scratch<L> {
             spin: Vec::new(),
             rates: Vec::new(),
             gain: Vec::new(),
+            fall: Vec::new(),
+            given: Vec::new(),
         }
     }
 }
