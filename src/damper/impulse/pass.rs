@@ -78,6 +78,7 @@ impl Pass {
         matches!(self, Self::Carried { stamp, .. } if !list.remembers(place, stamp))
     }
 
+    #[inline]
     /// The law's answer to a contact at `place` in `list`; `stamp` is the last step's.
     fn ask<L: ContactLaw>(
         self,
@@ -88,17 +89,17 @@ impl Pass {
     ) -> ContactForce {
         let now = stamp.wrapping_add(1);
         let remembered = match self {
-            Self::Carried { stamp, .. } => list.memory(place, stamp),
-            Self::Simultaneous => list.memory(place, stamp),
-            Self::Sequential { .. } => list.memory(place, now),
+            Self::Carried { stamp, .. } => stamp,
+            Self::Simultaneous => stamp,
+            Self::Sequential { .. } => now,
         };
-        let mut memory = remembered;
+        let mut memory = list.memory(place, remembered);
         let answer = match self {
             Self::Carried { part, .. } => law.carry(kind, contact, &mut memory, part),
             Self::Simultaneous => return law.force(kind, contact, &memory),
             Self::Sequential { .. } => law.strike(kind, contact, &mut memory),
         };
-        if memory != remembered || matches!(self, Self::Carried { .. }) {
+        if answer != ContactForce::default() {
             list.keep(place, now, memory);
         }
         answer

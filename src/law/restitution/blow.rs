@@ -100,11 +100,13 @@ impl RestitutionCoefficients {
     }
 
     /// Relative velocity per unit impulse along a unit vector, without spin, 1/kg.
+    #[inline]
     fn yielding(&self, contact: &Contact, along: DVec3) -> f64 {
         self.inverse_mass + along.dot(contact.mobility * along)
     }
 
     /// How long before they touch bodies are struck, s.
+    #[inline]
     fn early(&self, contact: &Contact) -> f64 {
         0.5 * (1.0 + self.restitution) * contact.elapsed
     }
@@ -117,11 +119,16 @@ impl RestitutionCoefficients {
     }
 
     /// Whether bodies approach so slowly that they may be at rest.
+    #[inline]
     pub(super) fn may_rest(&self, contact: &Contact, held: &RestingForce) -> bool {
         contact.approach_speed() <= self.gain(contact, held)
     }
 
+    #[inline]
     fn gain(&self, contact: &Contact, held: &RestingForce) -> f64 {
+        if held.bearing == 0.0 {
+            return REST * contact.fall;
+        }
         let load = held.bearing * contact.elapsed * self.yielding(contact, contact.normal);
         REST * (contact.fall + load)
     }
@@ -152,6 +159,7 @@ impl RestitutionCoefficients {
 
     /// What bodies at rest on each other, which give each other `held` so far, add to it: as much as
     /// makes the sum what it would be if they met afresh.
+    #[inline]
     pub(super) fn rest(&self, contact: &Contact, held: &mut RestingForce) -> ContactForce {
         let before = *held;
         let (contact, ahead) = if before.normal == 0.0 {
@@ -166,8 +174,11 @@ impl RestitutionCoefficients {
             (contact, -contact.velocity_ahead.dot(contact.normal))
         };
         let sunk = (contact.overlap - KEPT * self.smaller_radius).max(0.0);
-        let most = self.gain(&contact, held) / REST;
-        let lift = (LIFT * sunk / contact.elapsed).min(most);
+        let lift = if sunk > 0.0 {
+            (LIFT * sunk / contact.elapsed).min(self.gain(&contact, held) / REST)
+        } else {
+            0.0
+        };
         let impulse = (ahead + lift) / self.yielding(&contact, contact.normal);
         if impulse <= 0.0 {
             held.set(&ContactForce::default());
@@ -183,6 +194,7 @@ impl RestitutionCoefficients {
     }
 
     /// Part of what bodies gave each other in the step before, if they are still at rest.
+    #[inline]
     pub(super) fn carry(
         &self,
         contact: &Contact,
@@ -195,15 +207,14 @@ impl RestitutionCoefficients {
             held.couple *= part;
             return held.force();
         }
-        let borne = held.borne + held.normal;
-        held.borne = 0.0;
-        let weight = contact.fall / (contact.elapsed * self.yielding(contact, contact.normal));
-        held.bearing = borne.min(GROWTH * held.bearing + weight);
         let bound = REST * contact.fall;
         if contact.approach_speed() < -bound || contact.overlap < -self.early(contact) * bound {
-            *held = RestingForce::default();
             return ContactForce::default();
         }
+        let weight = contact.fall / (contact.elapsed * self.yielding(contact, contact.normal));
+        let borne = held.borne + held.normal;
+        held.bearing = borne.min(GROWTH * held.bearing + weight);
+        held.borne = 0.0;
         if held.bearing != held.normal {
             held.normal = held.bearing;
             held.tangential = held
@@ -219,6 +230,7 @@ impl RestitutionCoefficients {
     }
 
     /// The contact as it would be without `held`.
+    #[inline]
     fn without(&self, contact: &Contact, held: &RestingForce) -> Contact {
         let dt = contact.elapsed;
         let normal = contact.normal;
@@ -236,6 +248,7 @@ impl RestitutionCoefficients {
     }
 
     /// The force of an `impulse` (N s) along the normal, with what resists `slip` and rolling.
+    #[inline]
     fn held(&self, contact: &Contact, impulse: f64, slip: DVec3) -> ContactForce {
         let rate = 1.0 / contact.elapsed;
         let mut force = ContactForce::new(impulse * rate, DVec3::ZERO);
