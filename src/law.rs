@@ -2,7 +2,7 @@
 
 mod restitution;
 
-pub use restitution::{RestitutionCoefficients, RestitutionImpulse};
+pub use restitution::{RestingForce, RestitutionCoefficients, RestitutionImpulse};
 
 use crate::contact::{Bodies, Contact, ContactForce, Stored};
 use crate::error::ValueError;
@@ -33,7 +33,8 @@ pub enum Evaluation {
     /// from the same velocities, and held.
     Simultaneous,
     /// An impulse as above, but for one contact after the other: each sees the velocities that the
-    /// ones before it left. Pairs come first, walls last.
+    /// ones before it left. Pairs come first, walls last; several rounds are made, and what a contact
+    /// remembers changes as it is [struck](ContactLaw::strike).
     Sequential,
 }
 
@@ -72,7 +73,9 @@ pub enum LawError {
 ///    by [`Contact::elapsed`] (the paper's Eq. 12).
 /// 5. [`time_step_limit`](Self::time_step_limit) is the longest step that the law can bear; a builder
 ///    refuses a longer one.
-/// 6. [`stored`](Self::stored) tells energy that a contact holds from energy that it has lost. It is
+/// 6. An impulse law whose contacts can rest may [carry](Self::carry) impulses over from step to step,
+///    and take back in [`strike`](Self::strike) what it gave before.
+/// 7. [`stored`](Self::stored) tells energy that a contact holds from energy that it has lost. It is
 ///    asked only by observers; by default all of the force's work counts as lost, or as a negative
 ///    loss where it is given back.
 ///
@@ -137,9 +140,10 @@ pub trait ContactLaw {
     }
 
     /// The force that a contact of a [`Sequential`](Evaluation::Sequential) law starts the step with,
-    /// before any is struck: `part` (0 to 1) of what its memory of the step before suggests. The engine
-    /// asks contacts that remember something, with the velocities at the start of the step, and asks
-    /// for a smaller part of what the memory has become if the bed would gain energy. None unless set.
+    /// before any is struck: `part` of what its memory of the step before suggests. Asked once with 1, of
+    /// contacts that remember something, with the velocities at the start of the step; and once more,
+    /// with the memory that this left and a part below 1/2, if the bed would gain energy. None unless
+    /// set, which makes the contact forget.
     #[inline]
     fn carry(
         &self,
@@ -151,10 +155,9 @@ pub trait ContactLaw {
         ContactForce::default()
     }
 
-    /// What a [`Sequential`](Evaluation::Sequential) law adds to the force on the first body when it
-    /// comes to a contact, which may be several times in a step. It may change the memory;
-    /// [`advance`](Self::advance) is not called for such a law. Unless set, the force and nothing
-    /// else.
+    /// What a [`Sequential`](Evaluation::Sequential) law adds to the force on the first body each time
+    /// that it comes to a contact in a step. It may change the memory along with it;
+    /// [`advance`](Self::advance) is not called for such a law. Unless set, the force and no more.
     #[inline]
     fn strike(
         &self,

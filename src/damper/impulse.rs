@@ -29,7 +29,7 @@ const RESTING_ROUNDS: usize = 4;
 
 /// Approach within a step, as a part of what a particle gains in free fall, that needs no further
 /// round of a bed at rest.
-const STILL: f64 = 0.2;
+const STILL: f64 = 0.02;
 
 /// Approach within a step, as a fraction of the smallest radius, that needs no further round.
 const NEGLIGIBLE_APPROACH: f64 = 0.01;

@@ -78,8 +78,8 @@ impl Pass {
         matches!(self, Self::Carried { stamp, .. } if !list.remembers(place, stamp))
     }
 
-    #[inline]
     /// The law's answer to a contact at `place` in `list`; `stamp` is the last step's.
+    #[inline]
     fn ask<L: ContactLaw>(
         self,
         law: &L,
@@ -99,7 +99,10 @@ impl Pass {
             Self::Simultaneous => return law.force(kind, contact, &memory),
             Self::Sequential { .. } => law.strike(kind, contact, &mut memory),
         };
-        if answer != ContactForce::default() {
+        // A part that was given before is taken back even where nothing is left of it.
+        if answer != ContactForce::default()
+            || matches!(self, Self::Carried { part, .. } if part < 1.0)
+        {
             list.keep(place, now, memory);
         }
         answer

@@ -8,8 +8,8 @@ use crate::material::Interaction;
 /// Fraction of the overlap that a contact without restitution gives back per step.
 const SETTLING: f64 = 0.02;
 
-/// Contacts that approach by no more than so many times what a particle gains in free fall over the
-/// step may be at rest.
+/// Bodies that approach by no more than so many times what they would gain in a step without the contact
+/// may be at rest.
 const REST: f64 = 2.0;
 
 /// A contact is trusted to bear so many times what it was in the step before, and the weight of its
@@ -121,11 +121,12 @@ impl RestitutionCoefficients {
     /// Whether bodies approach so slowly that they may be at rest.
     #[inline]
     pub(super) fn may_rest(&self, contact: &Contact, held: &RestingForce) -> bool {
-        contact.approach_speed() <= self.gain(contact, held)
+        contact.approach_speed() <= self.slow(contact, held)
     }
 
+    /// The approach speed up to which bodies may be at rest, m/s.
     #[inline]
-    fn gain(&self, contact: &Contact, held: &RestingForce) -> f64 {
+    fn slow(&self, contact: &Contact, held: &RestingForce) -> f64 {
         if held.bearing == 0.0 {
             return REST * contact.fall;
         }
@@ -141,7 +142,7 @@ impl RestitutionCoefficients {
         if ahead <= 0.0 || contact.overlap < -self.early(contact) * approach.max(ahead) {
             return ContactForce::default();
         }
-        let elastic = approach.min(2.0 * (approach - self.gain(contact, held)));
+        let elastic = approach.min(2.0 * (approach - self.slow(contact, held)));
         let rebound = self.restitution * elastic.max(0.0);
         // A completely inelastic impact leaves no speed: the half step that it may come late does not
         // count as sunk, and only what presses on is lifted, by no more than it presses.
@@ -175,7 +176,7 @@ impl RestitutionCoefficients {
         };
         let sunk = (contact.overlap - KEPT * self.smaller_radius).max(0.0);
         let lift = if sunk > 0.0 {
-            (LIFT * sunk / contact.elapsed).min(self.gain(&contact, held) / REST)
+            (LIFT * sunk / contact.elapsed).min(self.slow(&contact, held) / REST)
         } else {
             0.0
         };
@@ -207,6 +208,7 @@ impl RestitutionCoefficients {
             held.couple *= part;
             return held.force();
         }
+        // What parts faster, or stands farther off, than a step of free fall explains is not at rest.
         let bound = REST * contact.fall;
         if contact.approach_speed() < -bound || contact.overlap < -self.early(contact) * bound {
             return ContactForce::default();
@@ -215,17 +217,10 @@ impl RestitutionCoefficients {
         let borne = held.borne + held.normal;
         held.bearing = borne.min(GROWTH * held.bearing + weight);
         held.borne = 0.0;
-        if held.bearing != held.normal {
-            held.normal = held.bearing;
-            held.tangential = held
-                .tangential
-                .clamp_length_max(self.friction * held.normal);
-            held.couple = held.couple.clamp_length_max(self.rolling_arm * held.normal);
-        }
+        held.normal = held.bearing;
         let across = held.tangential - held.tangential.dot(contact.normal) * contact.normal;
-        held.normal *= part;
-        held.tangential = across * part;
-        held.couple *= part;
+        held.tangential = across.clamp_length_max(self.friction * held.normal);
+        held.couple = held.couple.clamp_length_max(self.rolling_arm * held.normal);
         held.force()
     }
 
@@ -286,5 +281,94 @@ impl RestitutionCoefficients {
             turn = turn.clamp_length_max(along);
         }
         [push, normal.cross(turn)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::contact::Body;
+    use crate::material::Materials;
+
+    const STEP: f64 = 1e-4;
+    const FALL: f64 = 9.81 * STEP;
+
+    fn at_wall(restitution: f64) -> RestitutionCoefficients {
+        let sphere = Body::sphere(3e-3, 2e-4, Materials::FIRST);
+        let bodies = Bodies::new(sphere, Body::wall(Materials::FIRST));
+        let interaction = Interaction::new(restitution, 0.2).unwrap();
+        RestitutionCoefficients::new(&bodies, &interaction, true)
+    }
+
+    /// A sphere that comes down on a floor under gravity.
+    fn falling(speed: f64) -> Contact {
+        let mut contact = Contact::new(DVec3::Y, 0.0, DVec3::NEG_Y * speed);
+        contact.velocity_ahead = DVec3::NEG_Y * (speed + FALL);
+        contact.fall = FALL;
+        contact.elapsed = STEP;
+        contact
+    }
+
+    /// Speed over approach speed after the step.
+    fn rebound(own: &RestitutionCoefficients, speed: f64) -> f64 {
+        let (contact, mut held) = (falling(speed), RestingForce::default());
+        let force = if own.may_rest(&contact, &held) {
+            own.rest(&contact, &mut held)
+        } else {
+            own.rebound(&contact, &mut held)
+        };
+        (force.normal * STEP / 2e-4 - speed - FALL) / speed
+    }
+
+    #[test]
+    fn the_restitution_is_that_asked_for_from_four_times_the_fall_in_a_step() {
+        let own = at_wall(0.75);
+        for times in [4.0, 5.0, 100.0, 1000.0] {
+            assert_relative_eq!(rebound(&own, times * FALL), 0.75, epsilon = 1e-12);
+        }
+        for times in [0.1, 1.0, 2.0] {
+            assert!(rebound(&own, times * FALL).abs() < 1e-12);
+        }
+        assert_relative_eq!(rebound(&own, 3.0 * FALL), 0.5, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn a_body_at_rest_is_carried_and_given_nothing_more() {
+        let own = at_wall(0.75);
+        let (contact, mut held) = (falling(0.0), RestingForce::default());
+        let weight = own.rest(&contact, &mut held);
+        assert_relative_eq!(weight.normal, 2e-4 * 9.81, epsilon = 1e-15);
+        assert_eq!(own.carry(&contact, &mut held, 1.0), weight);
+        let mut after = contact;
+        after.velocity += DVec3::Y * FALL;
+        after.velocity_ahead += DVec3::Y * FALL;
+        assert!(own.rest(&after, &mut held).normal.abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_floor_that_falls_away_takes_back_what_was_carried() {
+        let own = at_wall(0.75);
+        let (mut contact, mut held) = (falling(0.0), RestingForce::default());
+        let weight = own.rest(&contact, &mut held);
+        contact.velocity = DVec3::Y * FALL;
+        contact.velocity_ahead = DVec3::Y * 3.0 * FALL;
+        let carried = own.carry(&contact, &mut held, 1.0);
+        assert_eq!(carried, weight);
+        let taken = own.rest(&contact, &mut held);
+        assert_relative_eq!(taken.normal, -carried.normal);
+        contact.velocity *= 3.0;
+        own.rest(&falling(0.0), &mut held);
+        assert_eq!(own.carry(&contact, &mut held, 1.0), ContactForce::default());
+    }
+
+    #[test]
+    fn an_impact_is_not_taken_for_rest() {
+        let own = at_wall(0.0);
+        let mut held = RestingForce::default();
+        own.rebound(&falling(1.0), &mut held);
+        let carried = own.carry(&falling(0.0), &mut held, 1.0);
+        assert_relative_eq!(carried.normal, 2e-4 * 9.81, epsilon = 1e-12);
     }
 }
