@@ -129,8 +129,6 @@ fn gain(pairing: &Pairing, throw: &Throw, others: usize) -> f64 {
         most = most.max(damper.kinetic_energy() - energy);
         energy = damper.kinetic_energy();
     }
-    let met = energy < start || pairing.restitution.max(1.0 - pairing.friction) > 0.99;
-    assert!(met, "{pairing:?} {throw:?}");
     most / start
 }
 

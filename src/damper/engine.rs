@@ -66,6 +66,8 @@ pub(crate) struct Scratch<L: ContactLaw> {
     pub(crate) gain: Vec<DVec3>,
     /// What a free particle gains on each container over the step, m/s.
     pub(crate) fall: Vec<f64>,
+    /// Where the containers were when the impulses of the step were struck.
+    pub(crate) origin: Vec<DVec3>,
     /// What every contact has given in the step so far, in the order of the lists, if an observer
     /// wants to know.
     pub(crate) given: Vec<ContactForce>,
@@ -116,6 +118,7 @@ impl<L: ContactLaw> Default for Scratch<L> {
             rates: Vec::new(),
             gain: Vec::new(),
             fall: Vec::new(),
+            origin: Vec::new(),
             given: Vec::new(),
         }
     }
@@ -281,7 +284,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         Ok(())
     }
 
-    fn escaped(&self, slot: usize, partner: super::Partner) -> StepError {
+    pub(crate) fn escaped(&self, slot: usize, partner: super::Partner) -> StepError {
         let room = &self.world.rooms[self.world.cavity_of(slot)];
         StepError::Escaped {
             particle: self.particles.number[slot] as usize,

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::Partner;
 use super::block::Block;
 use super::candidates::Candidates;
 use super::engine::Engine;
@@ -103,11 +104,13 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         scratch.rates.extend(ahead);
         scratch.gain.clear();
         scratch.fall.clear();
+        scratch.origin.clear();
         let end = self.time + time_step;
         for (cavity, room) in self.world.rooms.iter().enumerate() {
             let ahead = self.mount.motion(end, coordinates, &scratch.rates, cavity);
             let gain = ahead.velocity - room.motion.velocity;
             scratch.gain.push(gain);
+            scratch.origin.push(room.motion.position);
             scratch
                 .fall
                 .push((self.gravity * time_step - gain).length());
@@ -120,6 +123,26 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             let contacts = self.blocks.iter().map(Block::contacts_in_reach).sum();
             scratch.given.resize(contacts, ContactForce::default());
         }
+    }
+
+    /// Refuses particles that a container has left behind in the step: where it moves by more than a
+    /// radius, the walls that meet them are not looked at before the next.
+    pub(crate) fn check_left_behind(&self) -> Result<(), StepError> {
+        let radius = smallest_radius(&self.particles.kinds);
+        for (room, origin) in self.world.rooms.iter().zip(&self.scratch.origin) {
+            let position = room.motion.position;
+            if !self.contained || position.distance(*origin) <= radius {
+                continue;
+            }
+            for slot in room.slots.clone() {
+                let point = self.particles.position[slot] - position;
+                let outside = |wall: &u32| room.cavity.wall(*wall, point).distance < 0.0;
+                if let Some(wall) = (0..room.cavity.walls()).find(outside) {
+                    return Err(self.escaped(slot, Partner::Wall(wall)));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Advances the memory of all contacts, with the velocities after the impulses.

@@ -53,6 +53,8 @@ pub struct RestingForce {
     couple: DVec3,
     /// What the contact has borne along the normal in this step besides, rebounds apart, in N.
     borne: f64,
+    /// The acceleration that made it bear so much: of free fall in the container's frame, in m/s^2.
+    weight: f64,
     /// What it is trusted to bear at rest, in N.
     bearing: f64,
 }
@@ -153,6 +155,7 @@ impl RestitutionCoefficients {
         let correction = parting.min(approach).max(lifting);
         let yielding = self.yielding(contact, normal);
         held.borne += ahead / yielding * rate;
+        held.weight = contact.fall * rate;
         let impulse = (ahead + rebound.max(correction)) / yielding;
         let slip = contact.velocity_ahead + ahead * normal;
         self.held(contact, impulse, slip)
@@ -186,6 +189,7 @@ impl RestitutionCoefficients {
         } else {
             let slip = contact.velocity_ahead + ahead * contact.normal;
             held.set(&self.held(&contact, impulse, slip));
+            held.weight = contact.fall / contact.elapsed;
         }
         ContactForce {
             normal: held.normal - before.normal,
@@ -213,10 +217,19 @@ impl RestitutionCoefficients {
         if contact.approach_speed() < -bound || contact.overlap < -self.early(contact) * bound {
             return ContactForce::default();
         }
-        let weight = contact.fall / (contact.elapsed * self.yielding(contact, contact.normal));
-        let borne = held.borne + held.normal;
-        held.bearing = borne.min(GROWTH * held.bearing + weight);
+        let weight = contact.fall / contact.elapsed;
+        let change = if held.weight > 0.0 {
+            weight / held.weight
+        } else {
+            0.0
+        };
+        let borne = change * (held.borne + held.normal);
+        let own = weight / self.yielding(contact, contact.normal);
+        held.bearing = borne.min(GROWTH * held.bearing + own);
         held.borne = 0.0;
+        held.weight = weight;
+        held.tangential *= change;
+        held.couple *= change;
         held.normal = held.bearing;
         let across = held.tangential - held.tangential.dot(contact.normal) * contact.normal;
         held.tangential = across.clamp_length_max(self.friction * held.normal);
