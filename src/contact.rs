@@ -88,6 +88,10 @@ pub struct Contact {
     /// What `velocity` becomes over the step by everything but contacts (gravity, and what moves
     /// the container), in m/s. Differs from `velocity` for impulses at walls alone.
     pub velocity_ahead: DVec3,
+    /// Speed that everything but contacts (gravity, and what moves the container) gives a free
+    /// particle relative to its container over the step, in m/s: bodies that approach no faster than
+    /// so may be at rest. Laws that are evaluated at every stage see zero.
+    pub fall: f64,
     /// Angular velocities of the two bodies in rad/s; zero for a wall.
     pub spins: [DVec3; 2],
     /// Time since the contact's memory was advanced, in s. For an impulse this is the length of the
@@ -109,6 +113,7 @@ impl Contact {
             overlap,
             velocity,
             velocity_ahead: velocity,
+            fall: 0.0,
             spins: [DVec3::ZERO; 2],
             elapsed: 0.0,
             mobility: DMat3::ZERO,
@@ -209,5 +214,13 @@ impl ContactForce {
             tangential,
             couple: DVec3::ZERO,
         }
+    }
+
+    /// Adds another force.
+    #[inline]
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.normal += other.normal;
+        self.tangential += other.tangential;
+        self.couple += other.couple;
     }
 }

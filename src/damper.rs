@@ -138,7 +138,9 @@ where
             fresh: true,
         };
         self.integrator.step(&mut step, dt)?;
-        if !impulsive {
+        if impulsive {
+            self.engine.check_left_behind()?;
+        } else {
             self.engine.world.stamp = self.engine.world.stamp.wrapping_add(1);
         }
         self.clock.advance(dt);

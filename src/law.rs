@@ -2,7 +2,7 @@
 
 mod restitution;
 
-pub use restitution::{RestitutionCoefficients, RestitutionImpulse};
+pub use restitution::{RestingForce, RestitutionCoefficients, RestitutionImpulse};
 
 use crate::contact::{Bodies, Contact, ContactForce, Edge, Stored};
 use crate::error::ValueError;
@@ -47,7 +47,8 @@ pub enum Evaluation {
     /// from the same velocities, and held.
     Simultaneous,
     /// An impulse as above, but for one contact after the other: each sees the velocities that the
-    /// ones before it left. Pairs come first, walls last.
+    /// ones before it left. Pairs come first, walls last; several rounds are made, and what a contact
+    /// remembers changes as it is [struck](ContactLaw::strike).
     Sequential,
 }
 
@@ -88,7 +89,9 @@ pub enum LawError {
 ///    refuses a longer one.
 /// 6. Forces are taken step by step, and what they miss of an impact where it begins and ends between
 ///    two of them can be made up for: see [`at_edge`](Self::at_edge).
-/// 7. [`stored`](Self::stored) tells energy that a contact holds from energy that it has lost. It is
+/// 7. An impulse law whose contacts can rest may [carry](Self::carry) impulses over from step to step,
+///    and take back in [`strike`](Self::strike) what it gave before.
+/// 8. [`stored`](Self::stored) tells energy that a contact holds from energy that it has lost. It is
 ///    asked only by observers; by default all of the force's work counts as lost, or as a negative
 ///    loss where it is given back.
 ///
@@ -176,6 +179,35 @@ pub trait ContactLaw: Sync {
         )
     }
 
+    /// The force that a contact of a [`Sequential`](Evaluation::Sequential) law starts the step with,
+    /// before any is struck: `part` of what its memory of the step before suggests. Asked once with 1, of
+    /// contacts that remember something, with the velocities at the start of the step; and once more,
+    /// with the memory that this left and a part below 1/2, if the bed would gain energy. None unless
+    /// set, which makes the contact forget.
+    #[inline]
+    fn carry(
+        &self,
+        _coefficients: &Self::Coefficients,
+        _contact: &Contact,
+        _memory: &mut Self::Memory,
+        _part: f64,
+    ) -> ContactForce {
+        ContactForce::default()
+    }
+
+    /// What a [`Sequential`](Evaluation::Sequential) law adds to the force on the first body each time
+    /// that it comes to a contact in a step. It may change the memory along with it;
+    /// [`advance`](Self::advance) is not called for such a law. Unless set, the force and no more.
+    #[inline]
+    fn strike(
+        &self,
+        coefficients: &Self::Coefficients,
+        contact: &Contact,
+        memory: &mut Self::Memory,
+    ) -> ContactForce {
+        self.force(coefficients, contact, memory)
+    }
+
     /// What the contact holds and can give back, with what it remembers at the end of the step.
     fn stored(
         &self,
@@ -259,6 +291,27 @@ macro_rules! forward_law {
                 edge: &Edge,
             ) -> (ContactForce, Self::Memory) {
                 (**self).at_edge(coefficients, contact, memory, edge)
+            }
+
+            #[inline]
+            fn carry(
+                &self,
+                coefficients: &Self::Coefficients,
+                contact: &Contact,
+                memory: &mut Self::Memory,
+                part: f64,
+            ) -> ContactForce {
+                (**self).carry(coefficients, contact, memory, part)
+            }
+
+            #[inline]
+            fn strike(
+                &self,
+                coefficients: &Self::Coefficients,
+                contact: &Contact,
+                memory: &mut Self::Memory,
+            ) -> ContactForce {
+                (**self).strike(coefficients, contact, memory)
             }
 
             fn stored(

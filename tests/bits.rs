@@ -455,5 +455,5 @@ const GOLDEN: [&str; 4] = [
     "30000bc3e7872c05",
     "217b8a69afba0925",
     "8d6a6e9c5c00fe25",
-    "3a3c6be5464fab56",
+    "3d512bbcd82a9e49",
 ];

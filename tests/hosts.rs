@@ -129,13 +129,10 @@ fn time_that_runs_backwards_or_stands_still_is_refused() {
     }
 }
 
-/// A metre away within one step, and one step there. Impulses are struck at the start of a step, so
-/// that a law of impulses reports with the second.
+/// A metre away within one step.
 fn leap<L: ContactLaw>(damper: &mut Hosted<L>, way: DVec3) -> Result<(), StepError> {
     let end = still_at(damper.container(0).unwrap_or_default().position + way);
-    damper.drive(end, 1e-5)?;
-    damper.drive(end, 1e-5)?;
-    Ok(())
+    damper.drive(end, 1e-5).map(|_| ())
 }
 
 #[test]

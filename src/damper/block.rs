@@ -492,7 +492,7 @@ fn answer_pairs<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
         chunk.mend_edges::<true, END>(scene.law, only, scene.moment(), acceleration);
     }
     if END {
-        list.keep(run, scene.stamp.wrapping_add(1), chunk.advanced());
+        list.keep_run(run, scene.stamp.wrapping_add(1), chunk.advanced());
     }
 }
 
@@ -518,7 +518,7 @@ fn answer_walls<C: Cavity, L: ContactLaw, const END: bool>(
         chunk.mend_edges::<false, END>(scene.law, only, scene.moment(), acceleration);
     }
     if END {
-        list.keep(run, scene.stamp.wrapping_add(1), chunk.advanced());
+        list.keep_run(run, scene.stamp.wrapping_add(1), chunk.advanced());
     }
 }
 

@@ -276,6 +276,11 @@ impl<L: ContactLaw> Candidates<L> {
         self.contacts.count = count;
     }
 
+    /// The contacts.
+    pub(crate) fn touching(&self) -> impl Iterator<Item = Touch> {
+        (0..self.contacts.len()).map(|number| self.touch(number))
+    }
+
     /// The contact of a number.
     #[inline(always)]
     pub(crate) fn touch(&self, number: usize) -> Touch {
@@ -289,6 +294,16 @@ impl<L: ContactLaw> Candidates<L> {
     #[inline(always)]
     pub(crate) fn prepared(&self, place: u32) -> Option<&L::Coefficients> {
         self.prepared.get(place as usize)
+    }
+
+    /// Whether a contact touched at the end of step `stamp`, and may remember something.
+    #[inline(always)]
+    pub(crate) fn remembers(&self, place: u32, stamp: u32) -> bool {
+        Self::REMEMBERS
+            && self
+                .entries
+                .get(self.entry[place as usize] as usize)
+                .is_some_and(|entry| entry.touched == stamp)
     }
 
     /// What a contact remembers from the end of step `stamp`: the default if it did not touch then.
@@ -316,22 +331,30 @@ impl<L: ContactLaw> Candidates<L> {
         }
     }
 
+    /// Keeps what a contact remembers at the end of step `stamp`.
+    #[inline(always)]
+    pub(crate) fn keep(&mut self, place: u32, stamp: u32, memory: L::Memory) {
+        if Self::REMEMBERS {
+            let kept = Entry {
+                touched: stamp,
+                memory,
+            };
+            let entry = &mut self.entry[place as usize];
+            if let Some(old) = self.entries.get_mut(*entry as usize) {
+                *old = kept;
+            } else {
+                *entry = self.entries.len() as u32;
+                self.entries.push(kept);
+            }
+        }
+    }
+
     /// Keeps what the contacts of a run remember at the end of step `stamp`.
     #[inline(always)]
-    pub(crate) fn keep(&mut self, run: Range<usize>, stamp: u32, memories: &[L::Memory]) {
+    pub(crate) fn keep_run(&mut self, run: Range<usize>, stamp: u32, memories: &[L::Memory]) {
         if Self::REMEMBERS {
-            for (place, memory) in self.contacts.places[run].iter().zip(memories) {
-                let entry = &mut self.entry[*place as usize];
-                let kept = Entry {
-                    touched: stamp,
-                    memory: *memory,
-                };
-                if let Some(old) = self.entries.get_mut(*entry as usize) {
-                    *old = kept;
-                } else {
-                    *entry = self.entries.len() as u32;
-                    self.entries.push(kept);
-                }
+            for (number, memory) in run.zip(memories) {
+                self.keep(self.contacts.places[number], stamp, *memory);
             }
         }
     }

@@ -188,6 +188,7 @@ impl<L: ContactLaw> Chunk<L> {
             velocity,
             velocity_ahead: velocity,
             spins,
+            fall: 0.0,
             elapsed,
             mobility: DMat3::ZERO,
         }

@@ -9,6 +9,7 @@ use super::particles::Particles;
 use super::scene::{Room, Scene, WallLoad, World};
 use super::vectors::Vectors;
 use crate::cavity::Cavity;
+use crate::contact::ContactForce;
 use crate::detector::{Detector, Pairs};
 use crate::integrator::Stage;
 use crate::law::{ContactLaw, Evaluation};
@@ -64,6 +65,13 @@ pub(crate) struct Scratch {
     pub(crate) rates: Vec<f64>,
     /// What each container's velocity gains over the step without impulses.
     pub(crate) gain: Vec<DVec3>,
+    /// What a free particle gains on each container over the step, m/s.
+    pub(crate) fall: Vec<f64>,
+    /// Where the containers were when the impulses of the step were struck.
+    pub(crate) origin: Vec<DVec3>,
+    /// What every contact has given in the step so far, in the order of the lists, if an observer
+    /// wants to know.
+    pub(crate) given: Vec<ContactForce>,
 }
 
 impl Scratch {
@@ -73,6 +81,14 @@ impl Scratch {
         scratch.proposals.reserve(room_for(particles));
         scratch.partners.reserve(room_for(particles));
         scratch
+    }
+
+    /// Sets the working velocities and spins to those of `particles`.
+    pub(crate) fn start_from(&mut self, particles: &Particles) {
+        self.velocity.clear();
+        self.velocity.extend(particles.velocity.iter());
+        self.spin.clear();
+        self.spin.extend(particles.spin.iter());
     }
 
     /// Memory in bytes that it has reserved.
@@ -259,7 +275,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         Ok(())
     }
 
-    fn escaped(&self, slot: usize, partner: super::Partner) -> StepError {
+    pub(crate) fn escaped(&self, slot: usize, partner: super::Partner) -> StepError {
         let room = &self.world.rooms[self.world.cavity_of(slot)];
         StepError::Escaped {
             particle: self.particles.number[slot] as usize,

@@ -1,24 +1,36 @@
 //! Impulse laws: one evaluation at the start of a step, held over the step.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::Partner;
-use super::block::Place;
+use super::block::Block;
 use super::candidates::Candidates;
 use super::engine::Engine;
 use super::error::StepError;
 use super::scene::{Grain, PairContact, Scene, WallLoad, wall_contact};
 use super::smallest_radius;
-use super::vectors::vector;
 use crate::cavity::Cavity;
-use crate::contact::{Contact, ContactForce, Stored};
+use crate::contact::ContactForce;
 use crate::detector::Detector;
 use crate::law::{ContactLaw, Evaluation};
 use crate::mount::Mount;
-use crate::observer::{ContactEvent, Observer};
+use crate::observer::Observer;
+
+mod carry;
+mod pass;
+mod report;
+
+use pass::Pass;
 
 /// How often the contacts are gone through at the most.
 const ROUNDS: usize = 16;
+
+/// How often they are gone through if some bear what they bore in the step before.
+const RESTING_ROUNDS: usize = 4;
+
+/// Approach within a step, as a part of what a particle gains in free fall, that needs no further
+/// round of a bed at rest.
+const STILL: f64 = 0.02;
 
 /// Approach within a step, as a fraction of the smallest radius, that needs no further round.
 const NEGLIGIBLE_APPROACH: f64 = 0.01;
@@ -37,9 +49,20 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         for block in &mut self.blocks {
             block.forget();
         }
-        self.prepare_impulses(time_step);
-        self.strike_in_rounds(time_step, observer);
-        self.advance_memories(time_step);
+        self.prepare_impulses(time_step, observer.wants_contacts());
+        if self.world.law.evaluation() == Evaluation::Sequential {
+            let resting = Candidates::<L>::REMEMBERS && self.carry_impulses(time_step);
+            self.strike_in_rounds(time_step, resting);
+        } else {
+            self.pass(Pass::Simultaneous, time_step);
+            self.advance_memories(time_step);
+        }
+        for block in &mut self.blocks {
+            block.contacts = block.contacts_in_reach();
+        }
+        if observer.wants_contacts() {
+            self.report_impulses(time_step, observer);
+        }
         self.hold(time_step)?;
         self.world.stamp = self.world.stamp.wrapping_add(1);
         self.accelerate_mount(self.time);
@@ -48,23 +71,21 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
     /// Rounds to and fro, so that an impulse crosses the bed in one step whichever way it goes, until
     /// what is left of the approach cannot make a notable overlap.
-    fn strike_in_rounds<O: Observer>(&mut self, time_step: f64, observer: &mut O) {
-        let sequential = self.world.law.evaluation() == Evaluation::Sequential;
+    fn strike_in_rounds(&mut self, time_step: f64, resting: bool) {
         let negligible = NEGLIGIBLE_APPROACH * smallest_radius(&self.particles.kinds) / time_step;
-        for round in 0..if sequential { ROUNDS } else { 1 } {
-            let pairs = self.strike_pairs(round, time_step, observer);
-            let walls = self.strike_walls(time_step, observer);
-            if pairs.max(walls) < negligible {
+        let fall = self.scratch.fall.iter().copied().fold(0.0, f64::max);
+        for round in 0..ROUNDS {
+            let ascending = round.is_multiple_of(2);
+            let passed = self.pass(Pass::Sequential { ascending }, time_step);
+            let still = !resting || round + 1 >= RESTING_ROUNDS || passed.approach < STILL * fall;
+            if passed.approach < negligible && still {
                 break;
             }
-        }
-        for block in &mut self.blocks {
-            block.contacts = block.contacts_in_reach();
         }
     }
 
     /// Sets the working velocities, and looks ahead to what the containers gain over the step.
-    fn prepare_impulses(&mut self, time_step: f64) {
+    fn prepare_impulses(&mut self, time_step: f64, watched: bool) {
         self.wall_loads.fill(WallLoad::default());
         self.accelerate_mount(self.time);
         let degrees = self.mount.degrees();
@@ -72,10 +93,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let coordinates = &state.position[..degrees];
         let rates = &state.velocity[..degrees];
         let scratch = &mut self.scratch;
-        scratch.velocity.clear();
-        scratch.velocity.extend(self.particles.velocity.iter());
-        scratch.spin.clear();
-        scratch.spin.extend(self.particles.spin.iter());
+        scratch.start_from(&self.particles);
 
         let ahead = rates
             .iter()
@@ -84,143 +102,46 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         scratch.rates.clear();
         scratch.rates.extend(ahead);
         scratch.gain.clear();
+        scratch.fall.clear();
+        scratch.origin.clear();
         let end = self.time + time_step;
         for (cavity, room) in self.world.rooms.iter().enumerate() {
             let ahead = self.mount.motion(end, coordinates, &scratch.rates, cavity);
-            scratch.gain.push(ahead.velocity - room.motion.velocity);
+            let gain = ahead.velocity - room.motion.velocity;
+            scratch.gain.push(gain);
+            scratch.origin.push(room.motion.position);
+            scratch
+                .fall
+                .push((self.gravity * time_step - gain).length());
         }
         scratch.rates.clear();
         scratch.rates.extend_from_slice(rates);
+
+        scratch.given.clear();
+        if watched {
+            let contacts = self.blocks.iter().map(Block::contacts_in_reach).sum();
+            scratch.given.resize(contacts, ContactForce::default());
+        }
     }
 
-    /// Strikes all pairs, in even rounds in ascending order, in odd ones in descending order. Returns
-    /// the largest approach speed met.
-    fn strike_pairs<O: Observer>(&mut self, round: usize, time_step: f64, observer: &mut O) -> f64 {
-        let mut largest = 0.0_f64;
-        let sequential = self.world.law.evaluation() == Evaluation::Sequential;
-        let particles = &self.particles;
-        let scene = self.world.scene(particles, time_step);
-        let (velocity, spin) = (&mut self.scratch.velocity, &mut self.scratch.spin);
-        let ascending = round.is_multiple_of(2);
-        for block in &mut self.blocks {
-            let mut lists = [&block.pairs, &block.border];
-            if !ascending {
-                lists.reverse();
+    /// Refuses particles that a container has left behind in the step: where it moves by more than a
+    /// radius, the walls that meet them are not looked at before the next.
+    pub(crate) fn check_left_behind(&self) -> Result<(), StepError> {
+        let radius = smallest_radius(&self.particles.kinds);
+        for (room, origin) in self.world.rooms.iter().zip(&self.scratch.origin) {
+            let position = room.motion.position;
+            if !self.contained || position.distance(*origin) <= radius {
+                continue;
             }
-            for list in lists {
-                let count = list.contacts.len();
-                for turn in 0..count {
-                    let touch = list.touch(if ascending { turn } else { count - 1 - turn });
-                    let [i, j] = touch.bodies.map(|slot| slot as usize);
-                    let working = |velocity: &[DVec3], spin: &[DVec3]| {
-                        let struck = |slot| struck(&scene, slot, velocity, spin);
-                        PairContact::new(&struck(i), &struck(j), time_step)
-                    };
-                    let mut pair = if sequential {
-                        working(velocity, spin)
-                    } else {
-                        PairContact::new(&scene.grain(i), &scene.grain(j), time_step)
-                    };
-                    let inverse_mass = DVec3::splat(particles.inverse_mass[j]);
-                    pair.contact.mobility = DMat3::from_diagonal(inverse_mass);
-                    let own = list.prepared(touch.place);
-                    let (first, second) = (particles.species[i], particles.species[j]);
-                    let kind = scene.coefficients.pair(first, second, own);
-                    let memory = list.memory(touch.place, scene.stamp);
-                    let answer = scene.law.force(&kind, &pair.contact, &memory);
-
-                    block.largest_overlap = block.largest_overlap.max(pair.contact.overlap);
-                    if answer == ContactForce::default() {
-                        continue;
-                    }
-                    largest = largest.max(pair.contact.approach_speed());
-                    let watched = observer.wants_contacts();
-                    let before = watched.then(|| working(velocity, spin).contact);
-                    let (force, first, second) = pair.resolve(&answer);
-                    velocity[i] += force * (time_step * particles.inverse_mass[i]);
-                    velocity[j] -= force * (time_step * particles.inverse_mass[j]);
-                    spin[i] += first * (time_step * particles.inverse_inertia[i]);
-                    spin[j] += second * (time_step * particles.inverse_inertia[j]);
-                    if let Some(before) = before {
-                        let after = working(velocity, spin).contact;
-                        observer.contact(&ContactEvent {
-                            particle: particles.number[i] as usize,
-                            partner: Partner::Particle(particles.number[j] as usize),
-                            cavity: self.world.cavity_of(i),
-                            ..impulse(pair.contact, answer, &before, &after)
-                        });
-                    }
+            for slot in room.slots.clone() {
+                let point = self.particles.position.get(slot) - position;
+                let outside = |wall: &u32| room.cavity.wall(*wall, point).distance < 0.0;
+                if let Some(wall) = (0..room.cavity.walls()).find(outside) {
+                    return Err(self.escaped(slot, Partner::Wall(wall)));
                 }
             }
         }
-        largest
-    }
-
-    /// Strikes all walls. Returns the largest approach speed met.
-    fn strike_walls<O: Observer>(&mut self, time_step: f64, observer: &mut O) -> f64 {
-        let mut largest = 0.0_f64;
-        let sequential = self.world.law.evaluation() == Evaluation::Sequential;
-        let degrees = self.mount.degrees();
-        let particles = &self.particles;
-        let scene = self.world.scene(&self.particles, time_step);
-        let (velocity, spin) = (&mut self.scratch.velocity, &mut self.scratch.spin);
-        let rates = &mut self.scratch.rates;
-        let gravity = self.gravity * time_step;
-        for block in &mut self.blocks {
-            for number in 0..block.walls.contacts.len() {
-                let touch = block.walls.touch(number);
-                let (slot, wall) = (touch.bodies[0] as usize, touch.bodies[1]);
-                let cavity = scene.cavity_of_wall(wall);
-                let room = &self.world.rooms[cavity];
-                let point = scene.wall_point(wall, vector(&scene.position, slot));
-                let working = |velocity: &[DVec3], spin: &[DVec3], rates: &[f64]| {
-                    let coordinates = &self.mount_state.position[..degrees];
-                    let container = self.mount.motion(self.time, coordinates, rates, cavity);
-                    let grain = struck(&scene, slot, velocity, spin);
-                    wall_contact(&grain, &point, container.velocity, time_step)
-                };
-                let mut contact = if sequential {
-                    working(velocity, spin, rates)
-                } else {
-                    wall_contact(&scene.grain(slot), &point, room.motion.velocity, time_step)
-                };
-                contact.velocity_ahead = contact.velocity + gravity - self.scratch.gain[cavity];
-                contact.mobility = self.mount.mobility(cavity);
-                let kind = scene.coefficients.wall(particles.species[slot]);
-                let memory = block.walls.memory(touch.place, scene.stamp);
-                let answer = scene.law.force(kind, &contact, &memory);
-
-                block.largest_overlap = block.largest_overlap.max(contact.overlap);
-                let partner = Partner::Wall(wall - room.first_wall);
-                if point.distance < 0.0 {
-                    block.escaped = Some(Place { slot, partner });
-                }
-                if answer == ContactForce::default() {
-                    continue;
-                }
-                largest = largest.max(contact.approach_speed());
-                let watched = observer.wants_contacts();
-                let before = watched.then(|| working(velocity, spin, rates));
-                let force = contact.normal * answer.normal + answer.tangential;
-                let arm = contact.normal * -particles.radius[slot];
-                let torque = arm.cross(answer.tangential) + answer.couple;
-                velocity[slot] += force * (time_step * particles.inverse_mass[slot]);
-                spin[slot] += torque * (time_step * particles.inverse_inertia[slot]);
-                self.mount.strike(cavity, -force * time_step, rates);
-                let place = particles.position.get(slot) - room.motion.position + arm;
-                self.wall_loads[wall as usize].react(force, answer.couple, place);
-                if let Some(before) = before {
-                    let after = working(velocity, spin, rates);
-                    observer.contact(&ContactEvent {
-                        particle: particles.number[slot] as usize,
-                        partner,
-                        cavity,
-                        ..impulse(contact, answer, &before, &after)
-                    });
-                }
-            }
-        }
-        largest
+        Ok(())
     }
 
     /// Advances the memory of all contacts, with the velocities after the impulses.
@@ -244,7 +165,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     let kind = scene.coefficients.pair(kinds.0, kinds.1, own);
                     let memory = list.memory(touch.place, scene.stamp);
                     let memory = scene.law.advance(&kind, &pair.contact, &memory);
-                    list.keep(number..number + 1, next, &[memory]);
+                    list.keep(touch.place, next, memory);
                 }
             }
             let walls = &mut block.walls;
@@ -258,7 +179,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let kind = scene.coefficients.wall(particles.species[slot]);
                 let memory = walls.memory(touch.place, scene.stamp);
                 let memory = scene.law.advance(kind, &contact, &memory);
-                walls.keep(number..number + 1, next, &[memory]);
+                walls.keep(touch.place, next, memory);
             }
         }
     }
@@ -292,28 +213,5 @@ fn struck<C: Cavity, L: ContactLaw>(
         velocity: velocity[slot],
         spin: spin[slot],
         ..scene.grain(slot)
-    }
-}
-
-/// What an observer is told of an impulse that has changed the working velocities from those of
-/// `before` to those of `after`; who was struck is left open.
-fn impulse(
-    contact: Contact,
-    force: ContactForce,
-    before: &Contact,
-    after: &Contact,
-) -> ContactEvent {
-    // Half of what the step adds by itself goes before the impulse: then the energies of impulses,
-    // gravity and the container's motion add up to the change over the step.
-    let ahead = contact.velocity_ahead - contact.velocity;
-    ContactEvent {
-        particle: 0,
-        partner: Partner::Wall(0),
-        cavity: 0,
-        contact,
-        force,
-        stored: Stored::default(),
-        working_velocity: 0.5 * (before.velocity + after.velocity + ahead),
-        working_spin: 0.5 * (before.spins[0] - before.spins[1] + (after.spins[0] - after.spins[1])),
     }
 }

@@ -67,7 +67,8 @@
 //!
 //! Evaluating a law changes nothing: integrators ask several times within a step.
 //! [`advance`](crate::ContactLaw::advance) comes once per accepted step. A law of impulses says so in
-//! [`evaluation`](crate::ContactLaw::evaluation) and is asked once per step.
+//! [`evaluation`](crate::ContactLaw::evaluation) and is asked once per step, or once per
+//! [round](crate::Evaluation::Sequential).
 //!
 //! Before trusting a law of your own, throw one ball at a wall at several speeds, angles and time
 //! steps, as `examples/custom_law.rs` does: an error in a law shows there, and hides in a bed.

@@ -1,0 +1,387 @@
+//! What two bodies do to each other in one step.
+
+use glam::DVec3;
+
+use crate::contact::{Bodies, Contact, ContactForce};
+use crate::material::Interaction;
+
+/// Fraction of the overlap that a contact without restitution gives back per step.
+const SETTLING: f64 = 0.02;
+
+/// Bodies that approach by no more than so many times what they would gain in a step without the contact
+/// may be at rest.
+const REST: f64 = 2.0;
+
+/// A contact is trusted to bear so many times what it was in the step before, and the weight of its
+/// bodies.
+const GROWTH: f64 = 2.0;
+
+/// Part of their overlap by which resting bodies part per step.
+const LIFT: f64 = 0.1;
+
+/// Overlap that resting bodies keep, as a part of the smaller radius.
+const KEPT: f64 = 3e-3;
+
+/// What [`RestitutionImpulse`](crate::RestitutionImpulse) prepares for two bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RestitutionCoefficients {
+    restitution: f64,
+    friction: f64,
+    /// Rolling friction coefficient times the effective radius, m.
+    rolling_arm: f64,
+    /// 1/m of the first body, 1/kg.
+    inverse_mass: f64,
+    /// What spin adds to the inverse mass in the tangent plane, 1/kg.
+    turning: f64,
+    /// Sum of the inverse moments of inertia, 1/(kg m^2).
+    inverse_inertia: f64,
+    /// Relative spin per unit tangential impulse, and slip per unit angular impulse, in 1/(kg m).
+    coupling: f64,
+    smaller_radius: f64,
+}
+
+/// The force that holds bodies at rest on each other under
+/// [`RestitutionImpulse`](crate::RestitutionImpulse): what a contact remembers.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct RestingForce {
+    /// Along the normal, in N.
+    normal: f64,
+    /// Across it, in N.
+    tangential: DVec3,
+    /// The couple of rolling resistance, in N m.
+    couple: DVec3,
+    /// What the contact has borne along the normal in this step besides, rebounds apart, in N.
+    borne: f64,
+    /// The acceleration that made it bear so much: of free fall in the container's frame, in m/s^2.
+    weight: f64,
+    /// What it is trusted to bear at rest, in N.
+    bearing: f64,
+}
+
+/// Inverse moment of inertia of a solid sphere, 1/(kg m^2); zero for a wall.
+fn inverse_inertia(radius: f64, mass: f64) -> f64 {
+    2.5 / (mass * radius * radius)
+}
+
+impl RestingForce {
+    const fn set(&mut self, force: &ContactForce) {
+        self.normal = force.normal;
+        self.tangential = force.tangential;
+        self.couple = force.couple;
+    }
+
+    const fn force(&self) -> ContactForce {
+        ContactForce {
+            normal: self.normal,
+            tangential: self.tangential,
+            couple: self.couple,
+        }
+    }
+}
+
+impl RestitutionCoefficients {
+    pub(super) fn new(bodies: &Bodies, interaction: &Interaction, slides: bool) -> Self {
+        let Bodies { first, second } = bodies;
+        let slides = f64::from(slides);
+        Self {
+            restitution: interaction.restitution,
+            friction: slides * interaction.friction,
+            rolling_arm: slides * interaction.rolling_friction * bodies.effective_radius(),
+            inverse_mass: 1.0 / first.mass,
+            turning: 2.5 / first.mass + 2.5 / second.mass,
+            inverse_inertia: inverse_inertia(first.radius, first.mass)
+                + inverse_inertia(second.radius, second.mass),
+            coupling: 2.5 / (first.mass * first.radius) - 2.5 / (second.mass * second.radius),
+            smaller_radius: first.radius.min(second.radius),
+        }
+    }
+
+    pub(super) const fn smaller_radius(&self) -> f64 {
+        self.smaller_radius
+    }
+
+    /// Relative velocity per unit impulse along a unit vector, without spin, 1/kg.
+    #[inline]
+    fn yielding(&self, contact: &Contact, along: DVec3) -> f64 {
+        self.inverse_mass + along.dot(contact.mobility * along)
+    }
+
+    /// How long before they touch bodies are struck, s.
+    #[inline]
+    fn early(&self, contact: &Contact) -> f64 {
+        0.5 * (1.0 + self.restitution) * contact.elapsed
+    }
+
+    /// Eqs (10) to (12).
+    pub(super) fn literal(&self, contact: &Contact) -> ContactForce {
+        let approach = contact.approach_speed().max(0.0);
+        let impulse = (1.0 + self.restitution) * approach / self.yielding(contact, contact.normal);
+        ContactForce::new(impulse / contact.elapsed, DVec3::ZERO)
+    }
+
+    /// Whether bodies approach so slowly that they may be at rest.
+    #[inline]
+    pub(super) fn may_rest(&self, contact: &Contact, held: &RestingForce) -> bool {
+        contact.approach_speed() <= self.slow(contact, held)
+    }
+
+    /// The approach speed up to which bodies may be at rest, m/s.
+    #[inline]
+    fn slow(&self, contact: &Contact, held: &RestingForce) -> f64 {
+        if held.bearing == 0.0 {
+            return REST * contact.fall;
+        }
+        let load = held.bearing * contact.elapsed * self.yielding(contact, contact.normal);
+        REST * (contact.fall + load)
+    }
+
+    /// An impact.
+    pub(super) fn rebound(&self, contact: &Contact, held: &mut RestingForce) -> ContactForce {
+        let normal = contact.normal;
+        let approach = contact.approach_speed();
+        let ahead = -contact.velocity_ahead.dot(normal);
+        if ahead <= 0.0 || contact.overlap < -self.early(contact) * approach.max(ahead) {
+            return ContactForce::default();
+        }
+        let elastic = approach.min(2.0 * (approach - self.slow(contact, held)));
+        let rebound = self.restitution * elastic.max(0.0);
+        // A completely inelastic impact leaves no speed: the half step that it may come late does not
+        // count as sunk, and only what presses on is lifted, by no more than it presses.
+        let rate = 1.0 / contact.elapsed;
+        let sunk = (contact.overlap * rate - 0.5 * approach.max(0.0)).max(0.0);
+        let lifting = (SETTLING * sunk).min(ahead);
+        let parting = self.restitution * contact.overlap.max(0.0) * rate;
+        let correction = parting.min(approach).max(lifting);
+        let yielding = self.yielding(contact, normal);
+        held.borne += ahead / yielding * rate;
+        held.weight = contact.fall * rate;
+        let impulse = (ahead + rebound.max(correction)) / yielding;
+        let slip = contact.velocity_ahead + ahead * normal;
+        self.held(contact, impulse, slip)
+    }
+
+    /// What bodies at rest on each other, which give each other `held` so far, add to it: as much as
+    /// makes the sum what it would be if they met afresh.
+    #[inline]
+    pub(super) fn rest(&self, contact: &Contact, held: &mut RestingForce) -> ContactForce {
+        let before = *held;
+        let (contact, ahead) = if before.normal == 0.0 {
+            let ahead = -contact.velocity_ahead.dot(contact.normal);
+            let nearing = contact.approach_speed().max(ahead).max(0.0);
+            if contact.overlap < -self.early(contact) * nearing {
+                return ContactForce::default();
+            }
+            (*contact, ahead)
+        } else {
+            let contact = self.without(contact, &before);
+            (contact, -contact.velocity_ahead.dot(contact.normal))
+        };
+        let sunk = (contact.overlap - KEPT * self.smaller_radius).max(0.0);
+        let lift = if sunk > 0.0 {
+            (LIFT * sunk / contact.elapsed).min(self.slow(&contact, held) / REST)
+        } else {
+            0.0
+        };
+        let impulse = (ahead + lift) / self.yielding(&contact, contact.normal);
+        if impulse <= 0.0 {
+            held.set(&ContactForce::default());
+        } else {
+            let slip = contact.velocity_ahead + ahead * contact.normal;
+            held.set(&self.held(&contact, impulse, slip));
+            held.weight = contact.fall / contact.elapsed;
+        }
+        ContactForce {
+            normal: held.normal - before.normal,
+            tangential: held.tangential - before.tangential,
+            couple: held.couple - before.couple,
+        }
+    }
+
+    /// Part of what bodies gave each other in the step before, if they are still at rest.
+    #[inline]
+    pub(super) fn carry(
+        &self,
+        contact: &Contact,
+        held: &mut RestingForce,
+        part: f64,
+    ) -> ContactForce {
+        if part < 1.0 {
+            held.normal *= part;
+            held.tangential *= part;
+            held.couple *= part;
+            return held.force();
+        }
+        // What parts faster, or stands farther off, than a step of free fall explains is not at rest.
+        let bound = REST * contact.fall;
+        if contact.approach_speed() < -bound || contact.overlap < -self.early(contact) * bound {
+            return ContactForce::default();
+        }
+        let weight = contact.fall / contact.elapsed;
+        let change = if held.weight > 0.0 {
+            weight / held.weight
+        } else {
+            0.0
+        };
+        let borne = change * (held.borne + held.normal);
+        let own = weight / self.yielding(contact, contact.normal);
+        held.bearing = borne.min(GROWTH * held.bearing + own);
+        held.borne = 0.0;
+        held.weight = weight;
+        held.tangential *= change;
+        held.couple *= change;
+        held.normal = held.bearing;
+        let across = held.tangential - held.tangential.dot(contact.normal) * contact.normal;
+        held.tangential = across.clamp_length_max(self.friction * held.normal);
+        held.couple = held.couple.clamp_length_max(self.rolling_arm * held.normal);
+        held.force()
+    }
+
+    /// The contact as it would be without `held`.
+    #[inline]
+    fn without(&self, contact: &Contact, held: &RestingForce) -> Contact {
+        let dt = contact.elapsed;
+        let normal = contact.normal;
+        let (across, couple) = (held.tangential * dt, held.couple * dt);
+        let impulse = normal * (held.normal * dt) + across;
+        let velocity =
+            impulse * self.inverse_mass + contact.mobility * impulse + across * self.turning
+                - couple.cross(normal) * self.coupling;
+        let spin = across.cross(normal) * self.coupling + couple * self.inverse_inertia;
+        let mut free = *contact;
+        free.velocity -= velocity;
+        free.velocity_ahead -= velocity;
+        free.spins[0] -= spin;
+        free
+    }
+
+    /// The force of an `impulse` (N s) along the normal, with what resists `slip` and rolling.
+    #[inline]
+    fn held(&self, contact: &Contact, impulse: f64, slip: DVec3) -> ContactForce {
+        let rate = 1.0 / contact.elapsed;
+        let mut force = ContactForce::new(impulse * rate, DVec3::ZERO);
+        let speed = slip.length();
+        if self.friction > 0.0 && speed > 0.0 {
+            let direction = slip / speed;
+            let sticking = speed / (self.yielding(contact, direction) + self.turning);
+            force.tangential = direction * (-rate * sticking.min(self.friction * impulse));
+        }
+        if self.rolling_arm > 0.0 {
+            let direction = slip.try_normalize().unwrap_or_default();
+            let yielding = self.yielding(contact, direction) + self.turning;
+            let [tangential, couple] = self.roll(contact, slip, yielding, impulse);
+            force.tangential = tangential * rate;
+            force.couple = couple * rate;
+        }
+        force
+    }
+
+    /// Tangential and angular impulse that end slip and rolling together, as far as `impulse` (N s)
+    /// along the normal lets friction and rolling resistance reach. `yielding` is slip per unit
+    /// tangential impulse in 1/kg.
+    fn roll(&self, contact: &Contact, slip: DVec3, yielding: f64, impulse: f64) -> [DVec3; 2] {
+        let (across, along) = (self.friction * impulse, self.rolling_arm * impulse);
+        let (normal, coupling) = (contact.normal, self.coupling);
+        // Spins and couples turned into the tangent plane: a quarter turn about the normal.
+        let rolling = (contact.spins[0] - contact.spins[1]).cross(normal);
+        let determinant = yielding * self.inverse_inertia - coupling * coupling;
+        let stop = -(slip * coupling + rolling * yielding) / determinant;
+        let mut turn = stop.clamp_length_max(along);
+        let mut push = (turn * coupling - slip) / yielding;
+        if push.length() > across {
+            push = push.clamp_length_max(across);
+            turn = (push * coupling - rolling) / self.inverse_inertia;
+            turn = turn.clamp_length_max(along);
+        }
+        [push, normal.cross(turn)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::contact::Body;
+    use crate::material::Materials;
+
+    const STEP: f64 = 1e-4;
+    const FALL: f64 = 9.81 * STEP;
+
+    fn at_wall(restitution: f64) -> RestitutionCoefficients {
+        let sphere = Body::sphere(3e-3, 2e-4, Materials::FIRST);
+        let bodies = Bodies::new(sphere, Body::wall(Materials::FIRST));
+        let interaction = Interaction::new(restitution, 0.2).unwrap();
+        RestitutionCoefficients::new(&bodies, &interaction, true)
+    }
+
+    /// A sphere that comes down on a floor under gravity.
+    fn falling(speed: f64) -> Contact {
+        let mut contact = Contact::new(DVec3::Y, 0.0, DVec3::NEG_Y * speed);
+        contact.velocity_ahead = DVec3::NEG_Y * (speed + FALL);
+        contact.fall = FALL;
+        contact.elapsed = STEP;
+        contact
+    }
+
+    /// Speed over approach speed after the step.
+    fn rebound(own: &RestitutionCoefficients, speed: f64) -> f64 {
+        let (contact, mut held) = (falling(speed), RestingForce::default());
+        let force = if own.may_rest(&contact, &held) {
+            own.rest(&contact, &mut held)
+        } else {
+            own.rebound(&contact, &mut held)
+        };
+        (force.normal * STEP / 2e-4 - speed - FALL) / speed
+    }
+
+    #[test]
+    fn the_restitution_is_that_asked_for_from_four_times_the_fall_in_a_step() {
+        let own = at_wall(0.75);
+        for times in [4.0, 5.0, 100.0, 1000.0] {
+            assert_relative_eq!(rebound(&own, times * FALL), 0.75, epsilon = 1e-12);
+        }
+        for times in [0.1, 1.0, 2.0] {
+            assert!(rebound(&own, times * FALL).abs() < 1e-12);
+        }
+        assert_relative_eq!(rebound(&own, 3.0 * FALL), 0.5, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn a_body_at_rest_is_carried_and_given_nothing_more() {
+        let own = at_wall(0.75);
+        let (contact, mut held) = (falling(0.0), RestingForce::default());
+        let weight = own.rest(&contact, &mut held);
+        assert_relative_eq!(weight.normal, 2e-4 * 9.81, epsilon = 1e-15);
+        assert_eq!(own.carry(&contact, &mut held, 1.0), weight);
+        let mut after = contact;
+        after.velocity += DVec3::Y * FALL;
+        after.velocity_ahead += DVec3::Y * FALL;
+        assert!(own.rest(&after, &mut held).normal.abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_floor_that_falls_away_takes_back_what_was_carried() {
+        let own = at_wall(0.75);
+        let (mut contact, mut held) = (falling(0.0), RestingForce::default());
+        let weight = own.rest(&contact, &mut held);
+        contact.velocity = DVec3::Y * FALL;
+        contact.velocity_ahead = DVec3::Y * 3.0 * FALL;
+        let carried = own.carry(&contact, &mut held, 1.0);
+        assert_eq!(carried, weight);
+        let taken = own.rest(&contact, &mut held);
+        assert_relative_eq!(taken.normal, -carried.normal);
+        contact.velocity *= 3.0;
+        own.rest(&falling(0.0), &mut held);
+        assert_eq!(own.carry(&contact, &mut held, 1.0), ContactForce::default());
+    }
+
+    #[test]
+    fn an_impact_is_not_taken_for_rest() {
+        let own = at_wall(0.0);
+        let mut held = RestingForce::default();
+        own.rebound(&falling(1.0), &mut held);
+        let carried = own.carry(&falling(0.0), &mut held, 1.0);
+        assert_relative_eq!(carried.normal, 2e-4 * 9.81, epsilon = 1e-12);
+    }
+}
