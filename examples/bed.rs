@@ -105,11 +105,16 @@ impl Scene {
                 Ok(sphere.spinning(dvec3(wx, wy, wz)))
             })
             .collect::<Result<Vec<_>, _>>()?;
-        if particles.len() as f64 != count {
+        if particles.len() != count as usize {
             return Err(format!("{count} spheres promised, {} found", particles.len()).into());
         }
+        let planar = match dimension as u32 {
+            2 => true,
+            3 => false,
+            _ => return Err(format!("2 or 3 dimensions expected, not {dimension}").into()),
+        };
         Ok(Self {
-            planar: dimension == 2.0,
+            planar,
             size: dvec3(width, height, depth),
             particles,
         })

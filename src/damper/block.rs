@@ -259,28 +259,32 @@ impl<L: ContactLaw> Block<L> {
         mut torque: [&mut [f64]; 3],
         observer: &mut O,
     ) {
-        force.iter_mut().for_each(|component| component.fill(0.0));
-        torque.iter_mut().for_each(|component| component.fill(0.0));
+        for component in &mut force {
+            component.fill(0.0);
+        }
+        for component in &mut torque {
+            component.fill(0.0);
+        }
         self.loads.fill(WallLoad::default());
         self.parcels.clear();
         self.forget();
         self.contacts = self.contacts_in_reach();
         if scene.planar {
-            self.evaluate_lists::<C, O, END, true>(scene, &mut force, &mut torque, observer);
+            let sums = Sums::<true>::new(force, torque);
+            self.evaluate_lists::<C, O, END, true>(scene, sums, observer);
         } else {
-            self.evaluate_lists::<C, O, END, false>(scene, &mut force, &mut torque, observer);
+            let sums = Sums::<false>::new(force, torque);
+            self.evaluate_lists::<C, O, END, false>(scene, sums, observer);
         }
     }
 
     fn evaluate_lists<C: Cavity, O: Observer, const END: bool, const PLANAR: bool>(
         &mut self,
         scene: &Scene<'_, C, L>,
-        force: &mut [&mut [f64]; 3],
-        torque: &mut [&mut [f64]; 3],
+        mut sums: Sums<'_, PLANAR>,
         observer: &mut O,
     ) {
         let base = self.slots.start;
-        let mut sums = Sums::<PLANAR>::new(force, torque);
         let chunk = &mut *self.chunk;
         let mut deepest = 0.0_f64;
         let list = &mut self.pairs;
@@ -409,16 +413,13 @@ struct Sums<'a, const PLANAR: bool> {
 }
 
 impl<'a, const PLANAR: bool> Sums<'a, PLANAR> {
-    fn new(force: &'a mut [&mut [f64]; 3], torque: &'a mut [&mut [f64]; 3]) -> Self {
+    fn new(force: [&'a mut [f64]; 3], torque: [&'a mut [f64]; 3]) -> Self {
         // Columns of one length, so that one comparison stands for all their bounds.
         let count = force[0].len();
-        let even = |column: &'a mut &mut [f64], used: bool| {
-            let end = if used { count } else { 0 };
-            &mut column[..end]
-        };
-        let [x, y, z] = force.each_mut();
+        let even = |column: &'a mut [f64], used: bool| &mut column[..if used { count } else { 0 }];
+        let [x, y, z] = force;
         let force = [even(x, true), even(y, true), even(z, !PLANAR)];
-        let [x, y, z] = torque.each_mut();
+        let [x, y, z] = torque;
         let torque = [even(x, !PLANAR), even(y, !PLANAR), even(z, true)];
         Self { force, torque }
     }
