@@ -123,7 +123,9 @@ impl RestitutionCoefficients {
     /// Whether bodies approach so slowly that they may be at rest.
     #[inline]
     pub(super) fn may_rest(&self, contact: &Contact, held: &RestingForce) -> bool {
-        contact.approach_speed() <= self.slow(contact, held)
+        let approach = contact.approach_speed();
+        approach <= REST * contact.fall
+            || held.bearing > 0.0 && approach <= self.slow(contact, held)
     }
 
     /// The approach speed up to which bodies may be at rest, m/s.
@@ -158,7 +160,7 @@ impl RestitutionCoefficients {
         held.weight = contact.fall * rate;
         let impulse = (ahead + rebound.max(correction)) / yielding;
         let slip = contact.velocity_ahead + ahead * normal;
-        self.held(contact, impulse, slip)
+        self.held(contact, impulse, slip, contact.spins[0] - contact.spins[1])
     }
 
     /// What bodies at rest on each other, which give each other `held` so far, add to it: as much as
@@ -166,29 +168,32 @@ impl RestitutionCoefficients {
     #[inline]
     pub(super) fn rest(&self, contact: &Contact, held: &mut RestingForce) -> ContactForce {
         let before = *held;
-        let (contact, ahead) = if before.normal == 0.0 {
-            let ahead = -contact.velocity_ahead.dot(contact.normal);
+        let normal = contact.normal;
+        let [velocity, spin] = if before.normal == 0.0 {
+            let ahead = -contact.velocity_ahead.dot(normal);
             let nearing = contact.approach_speed().max(ahead).max(0.0);
             if contact.overlap < -self.early(contact) * nearing {
                 return ContactForce::default();
             }
-            (*contact, ahead)
+            [contact.velocity_ahead, contact.spins[0]]
         } else {
-            let contact = self.without(contact, &before);
-            (contact, -contact.velocity_ahead.dot(contact.normal))
+            let [velocity, spin] = self.given_by(contact, &before);
+            [contact.velocity_ahead - velocity, contact.spins[0] - spin]
         };
+        let ahead = -velocity.dot(normal);
         let sunk = (contact.overlap - KEPT * self.smaller_radius).max(0.0);
         let lift = if sunk > 0.0 {
-            (LIFT * sunk / contact.elapsed).min(self.slow(&contact, held) / REST)
+            (LIFT * sunk / contact.elapsed).min(self.slow(contact, held) / REST)
         } else {
             0.0
         };
-        let impulse = (ahead + lift) / self.yielding(&contact, contact.normal);
+        let impulse = (ahead + lift) / self.yielding(contact, normal);
         if impulse <= 0.0 {
             held.set(&ContactForce::default());
         } else {
-            let slip = contact.velocity_ahead + ahead * contact.normal;
-            held.set(&self.held(&contact, impulse, slip));
+            let slip = velocity + ahead * normal;
+            let spin = spin - contact.spins[1];
+            held.set(&self.held(contact, impulse, slip, spin));
             held.weight = contact.fall / contact.elapsed;
         }
         ContactForce {
@@ -237,9 +242,9 @@ impl RestitutionCoefficients {
         held.force()
     }
 
-    /// The contact as it would be without `held`.
+    /// Relative surface velocity (m/s) and spin (rad/s) that `held` has given the bodies.
     #[inline]
-    fn without(&self, contact: &Contact, held: &RestingForce) -> Contact {
+    fn given_by(&self, contact: &Contact, held: &RestingForce) -> [DVec3; 2] {
         let dt = contact.elapsed;
         let normal = contact.normal;
         let (across, couple) = (held.tangential * dt, held.couple * dt);
@@ -248,16 +253,12 @@ impl RestitutionCoefficients {
             impulse * self.inverse_mass + contact.mobility * impulse + across * self.turning
                 - couple.cross(normal) * self.coupling;
         let spin = across.cross(normal) * self.coupling + couple * self.inverse_inertia;
-        let mut free = *contact;
-        free.velocity -= velocity;
-        free.velocity_ahead -= velocity;
-        free.spins[0] -= spin;
-        free
+        [velocity, spin]
     }
 
-    /// The force of an `impulse` (N s) along the normal, with what resists `slip` and rolling.
+    /// The force of an `impulse` (N s) along the normal, with what resists `slip` and the relative `spin`.
     #[inline]
-    fn held(&self, contact: &Contact, impulse: f64, slip: DVec3) -> ContactForce {
+    fn held(&self, contact: &Contact, impulse: f64, slip: DVec3, spin: DVec3) -> ContactForce {
         let rate = 1.0 / contact.elapsed;
         let mut force = ContactForce::new(impulse * rate, DVec3::ZERO);
         let speed = slip.length();
@@ -269,21 +270,27 @@ impl RestitutionCoefficients {
         if self.rolling_arm > 0.0 {
             let direction = slip.try_normalize().unwrap_or_default();
             let yielding = self.yielding(contact, direction) + self.turning;
-            let [tangential, couple] = self.roll(contact, slip, yielding, impulse);
+            let [tangential, couple] = self.roll(contact.normal, [slip, spin], yielding, impulse);
             force.tangential = tangential * rate;
             force.couple = couple * rate;
         }
         force
     }
 
-    /// Tangential and angular impulse that end slip and rolling together, as far as `impulse` (N s)
-    /// along the normal lets friction and rolling resistance reach. `yielding` is slip per unit
-    /// tangential impulse in 1/kg.
-    fn roll(&self, contact: &Contact, slip: DVec3, yielding: f64, impulse: f64) -> [DVec3; 2] {
+    /// Tangential and angular impulse that end slip and rolling (relative spin) together, as far as
+    /// `impulse` (N s) along the normal lets friction and rolling resistance reach. `yielding` is slip per
+    /// unit tangential impulse in 1/kg.
+    fn roll(
+        &self,
+        normal: DVec3,
+        [slip, spin]: [DVec3; 2],
+        yielding: f64,
+        impulse: f64,
+    ) -> [DVec3; 2] {
         let (across, along) = (self.friction * impulse, self.rolling_arm * impulse);
-        let (normal, coupling) = (contact.normal, self.coupling);
+        let coupling = self.coupling;
         // Spins and couples turned into the tangent plane: a quarter turn about the normal.
-        let rolling = (contact.spins[0] - contact.spins[1]).cross(normal);
+        let rolling = spin.cross(normal);
         let determinant = yielding * self.inverse_inertia - coupling * coupling;
         let stop = -(slip * coupling + rolling * yielding) / determinant;
         let mut turn = stop.clamp_length_max(along);
