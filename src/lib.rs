@@ -81,7 +81,7 @@
 //! | feature | adds |
 //! |---|---|
 //! | `serde` | [`Snapshot`]s can be written and read |
-//! | `rayon` | response curves on all cores |
+//! | `rayon` | response curves and large beds on all cores |
 //!
 //! Neither is on by default, and neither changes a bit of any result.
 //!
