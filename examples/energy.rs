@@ -73,7 +73,11 @@ fn main() -> Result<(), Failure> {
         }
         let shares = shares.map(|share| format!("{share:.3}")).join(",");
         let unaccounted = ledger.residual() / lost;
-        println!("{frequency:5.3} Hz  {power:.3e} W  {shares} %  unaccounted {unaccounted:.1e}");
+        let stepped = ledger.integration_loss() / lost;
+        println!(
+            "{frequency:5.3} Hz  {power:.3e} W  {shares} %  unaccounted {unaccounted:.1e}, \
+             taken by the time step {stepped:.1e}"
+        );
         rows.push(format!("{frequency},{power},{shares}"));
     }
     let directory = output::directory("energy")?;

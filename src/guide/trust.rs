@@ -8,7 +8,8 @@
 //! 2. **The overlaps.** A bed that is pressed into itself by more than a few hundredths of a radius is
 //!    too soft or stepped too coarsely: [`Damper::largest_overlap`](crate::Damper::largest_overlap).
 //! 3. **The energy.** An [`EnergyLedger`](crate::EnergyLedger) follows where it goes; what it cannot
-//!    account for should be small against what was lost, and fall with the time step.
+//!    account for should be small against what was lost, and fall with the time step. So should what
+//!    the step takes from impacts by [itself](crate::EnergyLedger::integration_loss).
 //! 4. **The momentum.** What the container got is what the particles lost, to rounding.
 //! 5. **Chance.** Fill with other [seeds](crate::Filling::new) and look at the spread.
 //!
@@ -36,6 +37,7 @@
 //! }
 //! assert!(deepest < 0.05 * 3e-3);
 //! assert!(ledger.residual().abs() < 0.01 * ledger.losses().total());
+//! assert!(ledger.integration_loss() < 0.01 * ledger.losses().total());
 //! let weight = gravity * (20.0 * 2e-4) * damper.time();
 //! let lost = before - damper.momentum() + weight;
 //! assert!((received - lost).length() < 1e-12);

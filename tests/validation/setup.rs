@@ -2,9 +2,11 @@
 
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::{
-    AllPairs, ContactEvent, ContactLaw, Cuboid, Damper, Evaluation, Integrator, Interaction,
-    Material, MaterialId, Materials, Observer, Particle,
+    AllPairs, ContactEvent, ContactLaw, Cuboid, Damper, Evaluation, HertzTsuji, Integrator,
+    Interaction, Material, MaterialId, Materials, Observer, Particle, RungeKutta4,
 };
+
+use super::case::{Case, Tolerance};
 
 /// A material; `e` and `mu` against itself and, through [`Materials`], against everything else.
 pub(crate) fn material(modulus: f64, ratio: f64, e: f64, mu: f64) -> Material {
@@ -135,4 +137,30 @@ pub(crate) fn collide<L: ContactLaw, I: Integrator>(
         force: watch.force,
         duration: end - begin,
     }
+}
+
+/// Overlap, force and duration of an elastic impact at `v` (m/s) of `bodies` with the force constant `k`
+/// and the effective mass `m`, against Hertz: 2000 steps to a contact.
+pub(crate) fn elastic_impact(
+    name: &str,
+    source: &'static str,
+    (materials, rigid): (Materials, MaterialId),
+    bodies: &[Particle],
+    (k, m, v): (f64, f64, f64),
+) -> [Case; 3] {
+    let duration = hertz_duration(k, m, v);
+    let depth = (1.25 * m * v * v / k).powf(0.4);
+    let law = HertzTsuji::new(materials).reference_speed(v).unwrap();
+    let dt = duration / 2000.0;
+    let gap = 0.3 * v * dt;
+    let impact = collide(law, rigid, RungeKutta4::default(), dt, gap, bodies);
+    [
+        ("overlap (m)", depth, impact.overlap),
+        ("force (N)", k * depth.powf(1.5), impact.force),
+        ("duration (s)", duration, impact.duration),
+    ]
+    .map(|(what, expected, got)| {
+        let close = Tolerance::Relative(1e-5);
+        Case::new(format!("{name}: {what}"), source, expected, got, close)
+    })
 }
