@@ -199,7 +199,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             std::mem::take(&mut self.particles.acceleration)
         };
         if force.len() != self.particles.len() {
-            force.clone_from(&self.particles.acceleration);
+            force = self.particles.acceleration.clone();
         }
         let mut torque = std::mem::take(&mut self.particles.angular_acceleration);
         let scene = self.world.scene(&self.particles, elapsed);
