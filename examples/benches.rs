@@ -89,6 +89,9 @@ fn criterion_home() -> PathBuf {
     env::var_os("CRITERION_HOME").map_or_else(|| target().join("criterion"), PathBuf::from)
 }
 
+/// Number of particles that the legend reaches to at the most.
+const LEGEND_ENDS: f64 = 1000.0;
+
 /// Lines of one colour, one for each group.
 struct Curve {
     label: &'static str,
@@ -108,8 +111,8 @@ struct Picture {
     file: &'static str,
     title: &'static str,
     time: &'static str,
-    /// Room above the highest point, as a factor.
-    head_room: f64,
+    /// Part of the height that the legend, at the left, leaves to the points below it.
+    below_legend: f64,
     /// Groups and the length of their dashes.
     groups: [(&'static str, i32); 3],
     curves: &'static [Curve],
@@ -119,7 +122,7 @@ const DETECT: Picture = Picture {
     file: "detect.svg",
     title: "Contact detection, dense beds (solid: in the plane, dashed: in space)",
     time: "time per particle and detection (ns)",
-    head_room: 2.0,
+    below_legend: 0.8,
     groups: [
         ("detect/slot", 0),
         ("detect/planar_dense", 0),
@@ -136,7 +139,7 @@ const STEP: Picture = Picture {
     file: "step.svg",
     title: "Steps of shaken beds (solid: in the plane, dashed: in space)",
     time: "time per particle and step (ns)",
-    head_room: 10.0,
+    below_legend: 0.6,
     groups: [("step/slot", 0), ("step/plane", 0), ("step/space", 6)],
     curves: &[
         curve(
@@ -188,12 +191,16 @@ impl Picture {
         let points = || lines.iter().flat_map(|line| &line.points);
         let least = points().fold([f64::INFINITY; 2], |[x, y], at| [x.min(at.0), y.min(at.1)]);
         let most = points().fold([0.0; 2], |[x, y], at| [at.0.max(x), at.1.max(y)]);
+        let left = points().filter(|at| at.0 < LEGEND_ENDS).map(|at| at.1);
+        let left = left.fold(least[1], f64::max);
+        let bottom = 0.7 * least[1];
+        let above_left = bottom * (left / bottom).powf(1.0 / self.below_legend);
         let path = directory.join(self.file);
         Chart {
             title: self.title,
             axes: ["number of particles N", self.time],
             x: 0.5 * least[0]..1.6 * most[0],
-            y: 0.7 * least[1]..self.head_room * most[1],
+            y: bottom..above_left.max(1.5 * most[1]),
             logarithmic: [true; 2],
             legend: SeriesLabelPosition::UpperLeft,
         }
