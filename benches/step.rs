@@ -119,7 +119,8 @@ fn stacked(planar: bool, count: usize) -> (DVec3, Vec<Particle>) {
     (DVec3::splat(side), (0..count).map(place).collect())
 }
 
-/// Such a bed in a box that is shaken along y, by 10 mm at 6 Hz from the lowest point.
+/// Such a bed in a box that is shaken along y, by 5 mm at 6 Hz from the lowest point: too little to
+/// throw the bed, so that it has its contacts however many steps are timed.
 fn shaken<C: Cavity + Clone, L: ContactLaw>(
     c: &mut Criterion,
     id: (&str, &str),
@@ -129,8 +130,8 @@ fn shaken<C: Cavity + Clone, L: ContactLaw>(
     let (cavity, law, bed) = parts;
     let w = std::f64::consts::TAU * 6.0;
     let mount = Prescribed(move |time: f64| Motion {
-        position: DVec3::Y * 0.01 * (1.0 - (w * time).cos()),
-        velocity: DVec3::Y * 0.01 * w * (w * time).sin(),
+        position: DVec3::Y * 0.005 * (1.0 - (w * time).cos()),
+        velocity: DVec3::Y * 0.005 * w * (w * time).sin(),
     });
     let damper = Damper::builder(cavity.clone(), law)
         .mount(mount)

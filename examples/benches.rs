@@ -51,12 +51,13 @@ impl Measured {
         let (id, estimates) = (file("benchmark.json")?, file("estimates.json")?);
         let text = |value: &Value| value.as_str().map(str::to_owned);
         Ok((|| {
+            let elements = id["throughput"]["Elements"].as_f64();
+            let elements = elements.filter(|&elements| elements > 0.0)?;
             Some(Self {
                 group: text(&id["group_id"])?,
                 function: text(&id["function_id"])?,
                 particles: id["value_str"].as_str()?.parse().ok()?,
-                nanoseconds: estimates["median"]["point_estimate"].as_f64()?
-                    / id["throughput"]["Elements"].as_f64()?,
+                nanoseconds: estimates["median"]["point_estimate"].as_f64()? / elements,
             })
         })())
     }
