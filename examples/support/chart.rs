@@ -14,6 +14,7 @@ pub(crate) const POINTS: i32 = -1;
 /// One line of a chart.
 #[derive(Debug)]
 pub(crate) struct Line {
+    /// What the legend says; empty leaves the line out of it.
     pub(crate) label: String,
     /// Number of the colour.
     pub(crate) colour: usize,
@@ -40,14 +41,16 @@ pub(crate) struct Chart<'a> {
 type Drawing<'a, X, Y> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>;
 type Failure = Box<dyn Error + Send + Sync>;
 
-/// Colours that the colour-blind can tell apart (Okabe & Ito 2008).
-const COLOURS: [RGBColor; 6] = [
+/// Colours that the colour-blind can tell apart (Okabe & Ito 2008), the last of them excepted.
+const COLOURS: [RGBColor; 8] = [
     RGBColor(60, 60, 60),
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
     RGBColor(204, 121, 167),
     RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(120, 200, 150),
 ];
 
 impl Chart<'_> {
@@ -101,14 +104,16 @@ impl Chart<'_> {
             } else {
                 chart.draw_series(DashedLineSeries::new(points.clone(), dash, dash, style))?
             };
-            let legend = legend.label(&line.label);
-            if dash == POINTS {
-                legend.legend(move |(x, y)| Circle::new((x + 16, y), 4, colour.filled()));
-            } else {
-                let length = if dash == 0 { 32 } else { dash };
-                legend.legend(move |(x, y)| {
-                    DashedPathElement::new([(x, y), (x + 32, y)], length, length, style)
-                });
+            let length = if dash > 0 { dash } else { 32 };
+            if !line.label.is_empty() {
+                let legend = legend.label(&line.label);
+                if dash == POINTS {
+                    legend.legend(move |(x, y)| Circle::new((x + 16, y), 4, colour.filled()));
+                } else {
+                    legend.legend(move |(x, y)| {
+                        DashedPathElement::new([(x, y), (x + 32, y)], length, length, style)
+                    });
+                }
             }
             if line.marked && dash != POINTS {
                 chart.draw_series(points.map(|point| Circle::new(point, 4, colour.filled())))?;
@@ -130,7 +135,9 @@ impl Chart<'_> {
 /// Round numbers for a logarithmic axis.
 fn ticks(range: &Range<f64>) -> Vec<f64> {
     let decades = (range.end / range.start).log10();
-    let digits: &[u32] = if decades > 1.3 {
+    let digits: &[u32] = if decades > 3.5 {
+        &[1]
+    } else if decades > 1.3 {
         &[1, 2, 5]
     } else {
         &[1, 2, 3, 4, 6, 8]
@@ -146,10 +153,22 @@ fn ticks(range: &Range<f64>) -> Vec<f64> {
         .collect()
 }
 
-/// A number without the digits that rounding leaves behind.
+/// A number without the digits that rounding leaves behind, and from 10 000 on in groups of three.
 fn short(value: f64) -> String {
     let text = format!("{:.4}", value + 0.0);
     let text = text.trim_end_matches('0').trim_end_matches('.');
+    if value >= 1e4 && !text.contains('.') {
+        return text
+            .bytes()
+            .enumerate()
+            .flat_map(|(place, digit)| {
+                let gap = place > 0 && (text.len() - place) % 3 == 0;
+                gap.then_some('\u{2009}')
+                    .into_iter()
+                    .chain([char::from(digit)])
+            })
+            .collect();
+    }
     text.strip_prefix("-")
         .filter(|digits| *digits == "0")
         .unwrap_or(text)
