@@ -32,6 +32,10 @@ const RESTING_ROUNDS: usize = 4;
 /// round of a bed at rest.
 const STILL: f64 = 0.02;
 
+/// Approach in the first round, as a multiple of what a particle gains in free fall, from which a bed is
+/// not taken for one at rest.
+const STIRRED: f64 = 20.0;
+
 /// Approach within a step, as a fraction of the smallest radius, that needs no further round.
 const NEGLIGIBLE_APPROACH: f64 = 0.01;
 
@@ -71,12 +75,13 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
     /// Rounds to and fro, so that an impulse crosses the bed in one step whichever way it goes, until
     /// what is left of the approach cannot make a notable overlap.
-    fn strike_in_rounds(&mut self, time_step: f64, resting: bool) {
+    fn strike_in_rounds(&mut self, time_step: f64, mut resting: bool) {
         let negligible = NEGLIGIBLE_APPROACH * smallest_radius(&self.particles.kinds) / time_step;
         let fall = self.scratch.fall.iter().copied().fold(0.0, f64::max);
         for round in 0..ROUNDS {
             let ascending = round.is_multiple_of(2);
             let passed = self.pass(Pass::Sequential { ascending }, time_step);
+            resting &= passed.approach < STIRRED * fall;
             let still = !resting || round + 1 >= RESTING_ROUNDS || passed.approach < STILL * fall;
             if passed.approach < negligible && still {
                 break;

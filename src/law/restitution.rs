@@ -144,7 +144,7 @@ impl ContactLaw for RestitutionImpulse {
         own.carry(contact, held, part)
     }
 
-    #[inline]
+    #[inline(always)]
     fn strike(
         &self,
         own: &Self::Coefficients,

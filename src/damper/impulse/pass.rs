@@ -80,7 +80,7 @@ impl Pass {
     }
 
     /// The law's answer to a contact at `place` in `list`; `stamp` is the last step's.
-    #[inline]
+    #[inline(always)]
     fn ask<L: ContactLaw>(
         self,
         law: &L,

@@ -102,7 +102,7 @@ impl RestitutionCoefficients {
     }
 
     /// Relative velocity per unit impulse along a unit vector, without spin, 1/kg.
-    #[inline]
+    #[inline(always)]
     fn yielding(&self, contact: &Contact, along: DVec3) -> f64 {
         self.inverse_mass + along.dot(contact.mobility * along)
     }
@@ -165,7 +165,7 @@ impl RestitutionCoefficients {
 
     /// What bodies at rest on each other, which give each other `held` so far, add to it: as much as
     /// makes the sum what it would be if they met afresh.
-    #[inline]
+    #[inline(always)]
     pub(super) fn rest(&self, contact: &Contact, held: &mut RestingForce) -> ContactForce {
         let before = *held;
         let normal = contact.normal;
@@ -243,7 +243,7 @@ impl RestitutionCoefficients {
     }
 
     /// Relative surface velocity (m/s) and spin (rad/s) that `held` has given the bodies.
-    #[inline]
+    #[inline(always)]
     fn given_by(&self, contact: &Contact, held: &RestingForce) -> [DVec3; 2] {
         let dt = contact.elapsed;
         let normal = contact.normal;
@@ -257,7 +257,7 @@ impl RestitutionCoefficients {
     }
 
     /// The force of an `impulse` (N s) along the normal, with what resists `slip` and the relative `spin`.
-    #[inline]
+    #[inline(always)]
     fn held(&self, contact: &Contact, impulse: f64, slip: DVec3, spin: DVec3) -> ContactForce {
         let rate = 1.0 / contact.elapsed;
         let mut force = ContactForce::new(impulse * rate, DVec3::ZERO);
