@@ -146,7 +146,7 @@ fn main() -> Result<(), Failure> {
         let [strict, grid, fine, coarse] = [0, 1, 2, 3].map(|curve| curves[curve][row].1);
         let published = PUBLISHED.iter().find(|published| published.0 == particles);
         let published = published.map_or_else(String::new, |(_, s, a)| format!("{s:.1}, {a:.1}"));
-        println!("{particles:3} {strict:8.3} {grid:13.3} {fine:12.3} {coarse:20.3}   {published}",);
+        println!("{particles:3} {strict:8.3} {grid:13.3} {fine:12.3} {coarse:20.3}   {published}");
     }
     for (name, curve) in names.iter().zip(&curves) {
         println!("{name}: N^{:.2}", slope(curve));
@@ -159,7 +159,7 @@ fn main() -> Result<(), Failure> {
         .enumerate()
         .map(|(row, particles)| {
             let [strict, grid, fine, coarse] = [0, 1, 2, 3].map(|curve| curves[curve][row].1);
-            format!("{particles},{strict:.4},{grid:.4},{fine:.4},{coarse:.4}",)
+            format!("{particles},{strict:.4},{grid:.4},{fine:.4},{coarse:.4}")
         });
     let columns = "particles,strict_s,strict_grid_s,approximate_s,approximate_coarse_s";
     output::write_table(&directory.join("timing.csv"), columns, rows)?;

@@ -216,7 +216,7 @@ impl<L: ContactLaw> Candidates<L> {
         self.entry.clear();
         fit(&mut self.entry, count, NONE);
         self.entries.clear();
-        make_room(&mut self.entries, remembered.len());
+        make_room(&mut self.entries, remembered.len().min(count));
         let mut remembered = remembered.iter().peekable();
         for (entry, candidate) in self.entry.iter_mut().zip(&self.list) {
             let own = key(candidate.first, candidate.second);
