@@ -209,8 +209,9 @@ impl<Memory> Snapshot<Memory> {
     fn check_memory(&self, particles: usize, walls: usize) -> Result<(), RestoreError> {
         let [pairs, others] = &self.memory;
         let paired = |contact: &Remembered<Memory>| {
-            let (low, high) = contact.pair();
-            low < high && (high as usize) < particles
+            let number = |slot: u32| self.number.get(slot as usize);
+            let (_, high) = contact.pair();
+            (high as usize) < particles && number(contact.first) < number(contact.second)
         };
         let walled = |contact: &Remembered<Memory>| {
             (contact.first as usize) < particles && (contact.second as usize) < walls
