@@ -7,7 +7,7 @@ const PIECE: usize = 16_384;
 
 /// Does both, at the same time if there are threads for it.
 #[cfg(feature = "rayon")]
-pub(crate) fn both<A: Send, B: Send>(
+fn both<A: Send, B: Send>(
     first: impl FnOnce() -> A + Send,
     second: impl FnOnce() -> B + Send,
 ) -> (A, B) {
@@ -16,8 +16,31 @@ pub(crate) fn both<A: Send, B: Send>(
 
 /// Does both.
 #[cfg(not(feature = "rayon"))]
-pub(crate) fn both<A, B>(first: impl FnOnce() -> A, second: impl FnOnce() -> B) -> (A, B) {
+fn both<A, B>(first: impl FnOnce() -> A, second: impl FnOnce() -> B) -> (A, B) {
     (first(), second())
+}
+
+/// Does `work` for every item with its part of `parts`, and tells whether it was good for each. `split`
+/// divides parts into those of the items that it is shown, and those of the ones behind.
+pub(crate) fn for_each<T: Send, P: Send>(
+    items: &mut [T],
+    parts: P,
+    split: &(impl Fn(P, &[T]) -> (P, P) + Sync),
+    work: &(impl Fn(&mut T, P) -> bool + Sync),
+) -> bool {
+    match items {
+        [] => true,
+        [item] => work(item, parts),
+        _ => {
+            let (first, second) = items.split_at_mut(items.len() / 2);
+            let (own, rest) = split(parts, first);
+            let (first, second) = both(
+                || for_each(first, own, split, work),
+                || for_each(second, rest, split, work),
+            );
+            first && second
+        }
+    }
 }
 
 /// Changes each number of a column by the ones in the same place of another.

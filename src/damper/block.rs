@@ -12,13 +12,17 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::Partner;
-use super::candidates::{Candidates, Remembered, Touch, make_room, pair};
+use super::candidates::{Candidates, Remembered, make_room, pair};
 use super::chunk::{CHUNK, Chunk};
 use super::scene::{Scene, WallLoad};
 use super::vectors::{Components, part, vector};
 use crate::cavity::Cavity;
 use crate::law::{ContactLaw, LawError};
-use crate::observer::{ContactEvent, Observer};
+use crate::observer::Observer;
+
+mod report;
+
+use report::{report_pairs, report_walls};
 
 /// How many slots make a block: its columns fit into a second-level cache.
 pub(crate) const BLOCK: usize = 4096;
@@ -54,14 +58,6 @@ pub(crate) struct Listing<'a, C, L: ContactLaw> {
     /// Where each particle is in its container's frame.
     pub(crate) local: &'a [DVec3],
 }
-
-impl<C, L: ContactLaw> Clone for Listing<'_, C, L> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<C, L: ContactLaw> Copy for Listing<'_, C, L> {}
 
 /// What contacts remember: of pairs, and of walls.
 pub(crate) type Memories<L> = [Vec<Remembered<<L as ContactLaw>::Memory>>; 2];
@@ -113,6 +109,10 @@ impl<L: ContactLaw> Block<L> {
         self.remember(stamp, &mut memory);
         memory[0].sort_unstable_by_key(Remembered::pair);
         self.memory = memory;
+        self.empty();
+    }
+
+    fn empty(&mut self) {
         self.pairs.clear();
         self.border.clear();
         self.walls.clear();
@@ -126,8 +126,10 @@ impl<L: ContactLaw> Block<L> {
         self.walls.remember(stamp, walls);
     }
 
-    /// Keeps what `memory` holds of the block's contacts. It is in ascending order.
+    /// Empties the lists, and keeps what `memory` holds of the block's contacts. It is in ascending
+    /// order.
     pub(crate) fn recall(&mut self, memory: &Memories<L>) {
+        self.empty();
         let slots = [self.slots.start as u32, self.slots.end as u32];
         let own = |all: &[Remembered<L::Memory>], slot: fn(&Remembered<L::Memory>) -> u32| {
             let [start, end] = slots.map(|end| all.partition_point(|own| slot(own) < end));
@@ -531,63 +533,4 @@ fn acceleration_of_pair<C: Cavity, L: ContactLaw>(
 ) -> DVec3 {
     let [first, second] = bodies.map(|slot| vector(&scene.acceleration, slot as usize));
     first - second
-}
-
-/// Tells `observer` of the pairs in `chunk`, which are in `list`.
-#[cold]
-fn report_pairs<C: Cavity, L: ContactLaw>(
-    scene: &Scene<'_, C, L>,
-    list: &Candidates<L>,
-    chunk: &Chunk<L>,
-    run: Range<usize>,
-    observer: &mut impl Observer,
-) {
-    for (n, number) in run.enumerate() {
-        let Touch { bodies, place } = list.touch(number);
-        let (slot, other) = (bodies[0] as usize, bodies[1] as usize);
-        let prepared = list.prepared(place);
-        let (first, second) = (scene.species[slot], scene.species[other]);
-        let kind = scene.coefficients.pair(first, second, prepared);
-        let acceleration = acceleration_of_pair(scene, bodies);
-        let (contact, force, memory) =
-            chunk.ask::<true>(scene.law, &kind, n, scene.moment(), acceleration);
-        observer.contact(&ContactEvent {
-            particle: scene.number[slot] as usize,
-            partner: Partner::Particle(scene.number[other] as usize),
-            cavity: scene.rooms.partition_point(|room| room.slots.end <= slot),
-            contact,
-            force,
-            stored: scene.law.stored(&kind, &contact, &memory),
-            working_velocity: contact.velocity,
-            working_spin: contact.spins[0] - contact.spins[1],
-        });
-    }
-}
-
-/// Tells `observer` of the contacts with walls in `chunk`.
-#[cold]
-fn report_walls<C: Cavity, L: ContactLaw>(
-    scene: &Scene<'_, C, L>,
-    list: &Candidates<L>,
-    chunk: &Chunk<L>,
-    run: Range<usize>,
-    observer: &mut impl Observer,
-) {
-    for (n, [slot, wall]) in list.contacts.bodies()[run].iter().enumerate() {
-        let (slot, wall) = (*slot as usize, *wall);
-        let kind = scene.coefficients.wall(scene.species[slot]);
-        let acceleration = vector(&scene.acceleration, slot);
-        let (contact, force, memory) =
-            chunk.ask::<false>(scene.law, kind, n, scene.moment(), acceleration);
-        observer.contact(&ContactEvent {
-            particle: scene.number[slot] as usize,
-            partner: Partner::Wall(wall - scene.room_of_wall(wall).first_wall),
-            cavity: scene.cavity_of_wall(wall),
-            contact,
-            force,
-            stored: scene.law.stored(kind, &contact, &memory),
-            working_velocity: contact.velocity,
-            working_spin: contact.spins[0],
-        });
-    }
 }

@@ -152,12 +152,8 @@ impl<L: ContactLaw> Candidates<L> {
         if !Self::REMEMBERS {
             return;
         }
-        let entries = self
-            .entry
-            .iter()
-            .map(|place| self.entries.get(*place as usize));
-        for (candidate, entry) in self.list.iter().zip(entries) {
-            if let Some(entry) = entry.filter(|entry| entry.touched == stamp) {
+        for (place, candidate) in (0..).zip(&self.list) {
+            if let Some(entry) = self.touched(place, stamp) {
                 remembered.push(Remembered {
                     first: candidate.first,
                     second: candidate.second,
@@ -296,26 +292,27 @@ impl<L: ContactLaw> Candidates<L> {
         self.prepared.get(place as usize)
     }
 
+    /// The entry of a candidate that touched at the end of step `stamp`, if contacts remember anything.
+    #[inline(always)]
+    fn touched(&self, place: u32, stamp: u32) -> Option<&Entry<L::Memory>> {
+        if !Self::REMEMBERS {
+            return None;
+        }
+        let entry = self.entries.get(self.entry[place as usize] as usize);
+        entry.filter(|entry| entry.touched == stamp)
+    }
+
     /// Whether a contact touched at the end of step `stamp`, and may remember something.
     #[inline(always)]
     pub(crate) fn remembers(&self, place: u32, stamp: u32) -> bool {
-        Self::REMEMBERS
-            && self
-                .entries
-                .get(self.entry[place as usize] as usize)
-                .is_some_and(|entry| entry.touched == stamp)
+        self.touched(place, stamp).is_some()
     }
 
     /// What a contact remembers from the end of step `stamp`: the default if it did not touch then.
     #[inline(always)]
     pub(crate) fn memory(&self, place: u32, stamp: u32) -> L::Memory {
-        if Self::REMEMBERS
-            && let Some(entry) = self.entries.get(self.entry[place as usize] as usize)
-            && entry.touched == stamp
-        {
-            return entry.memory;
-        }
-        L::Memory::default()
+        let entry = self.touched(place, stamp);
+        entry.map_or_else(L::Memory::default, |entry| entry.memory)
     }
 
     /// Copies what the contacts of a run remember from the end of step `stamp`.
@@ -323,9 +320,10 @@ impl<L: ContactLaw> Candidates<L> {
     pub(crate) fn recall(&self, run: Range<usize>, stamp: u32, memories: &mut [L::Memory]) {
         if Self::REMEMBERS {
             for (place, memory) in self.contacts.places[run].iter().zip(memories) {
-                match self.entries.get(self.entry[*place as usize] as usize) {
-                    Some(entry) if entry.touched == stamp => *memory = entry.memory,
-                    _ => *memory = L::Memory::default(),
+                // Each straight to its place: through a temporary it would be copied twice.
+                match self.touched(*place, stamp) {
+                    Some(entry) => *memory = entry.memory,
+                    None => *memory = L::Memory::default(),
                 }
             }
         }

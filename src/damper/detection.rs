@@ -9,7 +9,7 @@ use crate::cavity::Cavity;
 use crate::detector::{Bed, Detector};
 use crate::law::ContactLaw;
 use crate::mount::Mount;
-use crate::parallel::both;
+use crate::parallel::for_each;
 
 impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Lists the pairs and walls that touch now. With `afresh`, candidates without a skin are listed
@@ -47,7 +47,6 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Gives contacts the memories that [`remembered`](Self::remembered) saved.
     pub(crate) fn recall(&mut self, memory: &Memories<L>) -> Result<(), StepError> {
         for block in &mut self.blocks {
-            block.clear(self.world.stamp);
             block.recall(memory);
         }
         self.list()
@@ -140,7 +139,17 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             rows: &self.scratch.rows,
             local: &self.scratch.local,
         };
-        list_blocks(&listing, &mut self.blocks, &mut self.scratch.partners);
+        let split = |partners, blocks: &[Block<L>]| {
+            let slots = blocks.first().zip(blocks.last());
+            let slots = slots.map_or(0..0, |(first, last)| first.slots.start..last.slots.end);
+            let count = listing.rows[slots.end] - listing.rows[slots.start];
+            <[u32]>::split_at_mut(partners, count as usize)
+        };
+        let partners = self.scratch.partners.as_mut_slice();
+        for_each(&mut self.blocks, partners, &split, &|block, partners| {
+            block.list(&listing, partners);
+            true
+        });
     }
 
     /// Memories of all contacts, pairs and walls, by slot.
@@ -159,36 +168,5 @@ fn all_blocks<L: ContactLaw>(
     blocks: &mut [Block<L>],
     work: &(impl Fn(&mut Block<L>) -> bool + Sync),
 ) -> bool {
-    match blocks {
-        [] => true,
-        [block] => work(block),
-        _ => {
-            let (first, second) = blocks.split_at_mut(blocks.len() / 2);
-            let (first, second) = both(|| all_blocks(first, work), || all_blocks(second, work));
-            first && second
-        }
-    }
-}
-
-/// Fills the empty lists of blocks. `partners` are those in the rows of their slots.
-fn list_blocks<C: Cavity, L: ContactLaw>(
-    listing: &Listing<'_, C, L>,
-    blocks: &mut [Block<L>],
-    partners: &mut [u32],
-) {
-    match blocks {
-        [] => {}
-        [block] => block.list(listing, partners),
-        _ => {
-            let (first, second) = blocks.split_at_mut(blocks.len() / 2);
-            let start = first.first().map_or(0, |block| block.slots.start);
-            let end = second.first().map_or(start, |block| block.slots.start);
-            let count = listing.rows[end] - listing.rows[start];
-            let (before, after) = partners.split_at_mut(count as usize);
-            both(
-                || list_blocks(listing, first, before),
-                || list_blocks(listing, second, after),
-            );
-        }
-    }
+    for_each(blocks, (), &|(), _| ((), ()), &|block, ()| work(block))
 }

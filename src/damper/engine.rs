@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::block::{BLOCK, Block, Place, room_for};
 use super::error::StepError;
 use super::particles::Particles;
-use super::scene::{Room, Scene, WallLoad, World};
+use super::scene::{Room, WallLoad, World};
 use super::vectors::Vectors;
 use crate::cavity::Cavity;
 use crate::contact::ContactForce;
@@ -15,7 +15,7 @@ use crate::integrator::Stage;
 use crate::law::{ContactLaw, Evaluation};
 use crate::mount::{Motion, Mount};
 use crate::observer::Observer;
-use crate::parallel::{both, update};
+use crate::parallel::{for_each, update};
 
 /// Coordinates of the mount, followed by three per cavity whose velocity sums up the impulse on its
 /// container. Integrating them along with the rest makes that impulse exactly the momentum that the
@@ -213,7 +213,15 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 block.evaluate::<C, O, END>(&scene, force, torque, observer);
             }
         } else {
-            evaluate_unwatched::<C, L, END>(&mut self.blocks, &scene, sums);
+            let split = |(mut force, mut torque), blocks: &[Block<L>]| {
+                let count = blocks.iter().map(|block| block.slots.len()).sum();
+                let own = (split_off(&mut force, count), split_off(&mut torque, count));
+                (own, (force, torque))
+            };
+            for_each(&mut self.blocks, sums, &split, &|block, (force, torque)| {
+                block.evaluate::<C, (), END>(&scene, force, torque, &mut ());
+                true
+            });
         }
         for parcel in self.blocks.iter().flat_map(|block| &block.parcels) {
             let slot = parcel.slot as usize;
@@ -342,30 +350,6 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
         self.accelerate_mount(time);
         Ok(())
-    }
-}
-
-/// Forces and torques by component.
-type SumsOfSlots<'a> = ([&'a mut [f64]; 3], [&'a mut [f64]; 3]);
-
-/// Evaluates blocks one after the other or at the same time. `sums` are those of their slots.
-fn evaluate_unwatched<C: Cavity, L: ContactLaw, const END: bool>(
-    blocks: &mut [Block<L>],
-    scene: &Scene<'_, C, L>,
-    (mut force, mut torque): SumsOfSlots<'_>,
-) {
-    match blocks {
-        [] => {}
-        [block] => block.evaluate::<C, (), END>(scene, force, torque, &mut ()),
-        _ => {
-            let (first, second) = blocks.split_at_mut(blocks.len() / 2);
-            let count = first.iter().map(|block| block.slots.len()).sum();
-            let sums = (split_off(&mut force, count), split_off(&mut torque, count));
-            both(
-                || evaluate_unwatched::<C, L, END>(first, scene, sums),
-                || evaluate_unwatched::<C, L, END>(second, scene, (force, torque)),
-            );
-        }
     }
 }
 

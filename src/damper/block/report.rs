@@ -1,0 +1,72 @@
+//! What observers are told of contacts that were evaluated.
+
+use std::ops::Range;
+
+use super::acceleration_of_pair;
+use crate::cavity::Cavity;
+use crate::damper::Partner;
+use crate::damper::candidates::{Candidates, Touch};
+use crate::damper::chunk::Chunk;
+use crate::damper::scene::Scene;
+use crate::damper::vectors::vector;
+use crate::law::ContactLaw;
+use crate::observer::{ContactEvent, Observer};
+
+/// Tells `observer` of the pairs in `chunk`, which are in `list`.
+#[cold]
+pub(super) fn report_pairs<C: Cavity, L: ContactLaw>(
+    scene: &Scene<'_, C, L>,
+    list: &Candidates<L>,
+    chunk: &Chunk<L>,
+    run: Range<usize>,
+    observer: &mut impl Observer,
+) {
+    for (n, number) in run.enumerate() {
+        let Touch { bodies, place } = list.touch(number);
+        let (slot, other) = (bodies[0] as usize, bodies[1] as usize);
+        let prepared = list.prepared(place);
+        let (first, second) = (scene.species[slot], scene.species[other]);
+        let kind = scene.coefficients.pair(first, second, prepared);
+        let acceleration = acceleration_of_pair(scene, bodies);
+        let (contact, force, memory) =
+            chunk.ask::<true>(scene.law, &kind, n, scene.moment(), acceleration);
+        observer.contact(&ContactEvent {
+            particle: scene.number[slot] as usize,
+            partner: Partner::Particle(scene.number[other] as usize),
+            cavity: scene.rooms.partition_point(|room| room.slots.end <= slot),
+            contact,
+            force,
+            stored: scene.law.stored(&kind, &contact, &memory),
+            working_velocity: contact.velocity,
+            working_spin: contact.spins[0] - contact.spins[1],
+        });
+    }
+}
+
+/// Tells `observer` of the contacts with walls in `chunk`.
+#[cold]
+pub(super) fn report_walls<C: Cavity, L: ContactLaw>(
+    scene: &Scene<'_, C, L>,
+    list: &Candidates<L>,
+    chunk: &Chunk<L>,
+    run: Range<usize>,
+    observer: &mut impl Observer,
+) {
+    for (n, [slot, wall]) in list.contacts.bodies()[run].iter().enumerate() {
+        let (slot, wall) = (*slot as usize, *wall);
+        let kind = scene.coefficients.wall(scene.species[slot]);
+        let acceleration = vector(&scene.acceleration, slot);
+        let (contact, force, memory) =
+            chunk.ask::<false>(scene.law, kind, n, scene.moment(), acceleration);
+        observer.contact(&ContactEvent {
+            particle: scene.number[slot] as usize,
+            partner: Partner::Wall(wall - scene.room_of_wall(wall).first_wall),
+            cavity: scene.cavity_of_wall(wall),
+            contact,
+            force,
+            stored: scene.law.stored(kind, &contact, &memory),
+            working_velocity: contact.velocity,
+            working_spin: contact.spins[0],
+        });
+    }
+}
