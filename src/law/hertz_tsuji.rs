@@ -106,7 +106,7 @@ impl ContactLaw for HertzTsuji {
     type Memory = ();
 
     fn coefficients(&self, bodies: &Bodies) -> Result<Coefficients, LawError> {
-        let (normal, longest) = self.normal.coefficients(bodies)?;
+        let (normal, longest) = self.normal.coefficients(bodies, 0.0)?;
         let interaction = self.normal.interaction(bodies)?;
         Ok(Coefficients {
             normal,

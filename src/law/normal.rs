@@ -1,5 +1,7 @@
 //! The normal force that the strict laws share.
 
+use std::f64::consts::PI;
+
 use super::damping::{Damping, Ending};
 use super::edge::Power;
 use super::hertz::ElasticImpact;
@@ -24,10 +26,11 @@ const ELASTIC_STEPS: f64 = 50.0;
 /// Relative error of an overlap against the way in a step.
 const ROUNDING: f64 = 1e-6;
 
-/// The fewest steps to a contact in which damping takes more energy than integration can add.
-fn fewest_steps(restitution: f64) -> f64 {
+/// The fewest steps to a contact in which damping takes more energy than integration can add to an
+/// oscillation `quickness` times as fast as the contact's own.
+fn fewest_steps(restitution: f64, quickness: f64) -> f64 {
     let loss = 1.0 - restitution * restitution;
-    (GAIN / loss).cbrt().clamp(FEWEST_STEPS, ELASTIC_STEPS)
+    (quickness * (GAIN / loss).cbrt()).clamp(FEWEST_STEPS, ELASTIC_STEPS)
 }
 
 /// Hertz's spring with damping, for a table of materials.
@@ -158,10 +161,12 @@ impl NormalForce {
         Ok(self.damping.coefficient(number, &impact))
     }
 
-    /// Constants of the force, and the longest step in s that it bears.
+    /// Constants of the force, and the longest step in s that it bears with other forces of the contact
+    /// that oscillate at up to `frequency` (rad/s).
     pub(super) fn coefficients(
         &self,
         bodies: &Bodies,
+        frequency: f64,
     ) -> Result<(NormalCoefficients, f64), LawError> {
         let impact = self.reference(bodies)?;
         let damping = self.damping_coefficient(bodies)?;
@@ -171,7 +176,8 @@ impl NormalForce {
             mobility: 1.0 / impact.effective_mass(),
         };
         let rate = self.damping.greatest_rate(damping, &impact);
-        let steps = fewest_steps(self.interaction(bodies)?.restitution);
+        let quickness = (frequency * impact.duration() / PI).max(1.0);
+        let steps = fewest_steps(self.interaction(bodies)?.restitution, quickness);
         let longest = (impact.duration() / steps).min(1.0 / rate);
         Ok((coefficients, longest))
     }
