@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use particle_damper::glam::{DMat3, DVec3};
+use particle_damper::glam::DVec3;
 use particle_damper::{
     Bodies, Body, Contact, ContactLaw, Friction, HertzMindlin, HertzTsuji, Material, Materials,
     RestitutionImpulse,
@@ -18,7 +18,6 @@ fn contacts() -> Vec<Contact> {
             let velocity = DVec3::new(part(7) - 0.5, part(19) - 0.5, 0.0);
             let mut contact = Contact::new(DVec3::Y, 1e-6 + 40e-6 * part(1), velocity);
             contact.elapsed = 2e-5;
-            contact.mobility = DMat3::from_diagonal(DVec3::splat(1.0 / 0.2e-3));
             contact
         })
         .collect()

@@ -97,9 +97,9 @@ pub struct Contact {
     /// Time since the contact's memory was advanced, in s. For an impulse this is the length of the
     /// step over which its force is held.
     pub elapsed: f64,
-    /// Velocity that the second body gains per unit impulse, in 1/kg: the identity over its mass
-    /// for a sphere, what the mount says for a wall, zero for a wall that does not yield. Laws that
-    /// are evaluated at every stage see zero.
+    /// Velocity that a wall gains per unit impulse on it, in 1/kg, as the mount says; zero if it does
+    /// not yield, for a pair (the law knows its masses), and for laws that are evaluated at every
+    /// stage.
     pub mobility: DMat3,
 }
 

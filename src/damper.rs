@@ -282,6 +282,7 @@ where
         let blocks = self.engine.blocks.iter().map(block::Block::reserved_bytes);
         self.engine.particles.reserved_bytes()
             + self.engine.scratch.reserved_bytes()
+            + self.engine.joints.reserved_bytes()
             + blocks.sum::<usize>()
     }
 

@@ -5,6 +5,7 @@ use super::clock::Clock;
 use super::coefficients::Coefficients;
 use super::engine::{Engine, MountState, Scratch};
 use super::error::BuildError;
+use super::impulse::Joints;
 use super::particles::Particles;
 use super::scene::{Room, WallLoad, World};
 use super::setup::Setup;
@@ -224,6 +225,7 @@ where
             gravity: self.gravity,
             blocks: Engine::<C, L, M, D>::make_blocks(particles.len(), walls),
             scratch: Scratch::new(particles.len()),
+            joints: Joints::default(),
             particles,
             wall_loads: vec![WallLoad::default(); walls],
             loads: vec![DVec3::ZERO; rooms.len()],

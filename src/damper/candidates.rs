@@ -153,11 +153,11 @@ impl<L: ContactLaw> Candidates<L> {
             return;
         }
         for (place, candidate) in (0..).zip(&self.list) {
-            if let Some(entry) = self.touched(place, stamp) {
+            if let Some(memory) = self.touched(place, stamp) {
                 remembered.push(Remembered {
                     first: candidate.first,
                     second: candidate.second,
-                    memory: entry.memory,
+                    memory: *memory,
                 });
             }
         }
@@ -292,27 +292,15 @@ impl<L: ContactLaw> Candidates<L> {
         self.prepared.get(place as usize)
     }
 
-    /// The entry of a candidate that touched at the end of step `stamp`, if contacts remember anything.
+    /// What a candidate remembers that touched at the end of step `stamp`, if contacts remember anything.
     #[inline(always)]
-    fn touched(&self, place: u32, stamp: u32) -> Option<&Entry<L::Memory>> {
+    pub(crate) fn touched(&self, place: u32, stamp: u32) -> Option<&L::Memory> {
         if !Self::REMEMBERS {
             return None;
         }
         let entry = self.entries.get(self.entry[place as usize] as usize);
-        entry.filter(|entry| entry.touched == stamp)
-    }
-
-    /// Whether a contact touched at the end of step `stamp`, and may remember something.
-    #[inline(always)]
-    pub(crate) fn remembers(&self, place: u32, stamp: u32) -> bool {
-        self.touched(place, stamp).is_some()
-    }
-
-    /// What a contact remembers from the end of step `stamp`: the default if it did not touch then.
-    #[inline(always)]
-    pub(crate) fn memory(&self, place: u32, stamp: u32) -> L::Memory {
-        let entry = self.touched(place, stamp);
-        entry.map_or_else(L::Memory::default, |entry| entry.memory)
+        let touched = entry.filter(|entry| entry.touched == stamp);
+        touched.map(|entry| &entry.memory)
     }
 
     /// Copies what the contacts of a run remember from the end of step `stamp`.
@@ -322,7 +310,7 @@ impl<L: ContactLaw> Candidates<L> {
             for (place, memory) in self.contacts.places[run].iter().zip(memories) {
                 // Each straight to its place: through a temporary it would be copied twice.
                 match self.touched(*place, stamp) {
-                    Some(entry) => *memory = entry.memory,
+                    Some(remembered) => *memory = *remembered,
                     None => *memory = L::Memory::default(),
                 }
             }
@@ -353,6 +341,15 @@ impl<L: ContactLaw> Candidates<L> {
         if Self::REMEMBERS {
             for (number, memory) in run.zip(memories) {
                 self.keep(self.contacts.places[number], stamp, *memory);
+            }
+        }
+    }
+
+    /// Keeps what the contacts remember at the end of step `stamp`, of which `next` tells one by one.
+    pub(crate) fn keep_all(&mut self, stamp: u32, mut next: impl FnMut() -> Option<L::Memory>) {
+        for number in 0..self.contacts.len() {
+            if let Some(memory) = next() {
+                self.keep(self.contacts.places[number], stamp, memory);
             }
         }
     }

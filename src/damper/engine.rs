@@ -5,11 +5,11 @@ use glam::DVec3;
 
 use super::block::{BLOCK, Block, Place, room_for};
 use super::error::StepError;
+use super::impulse::Joints;
 use super::particles::Particles;
 use super::scene::{Room, WallLoad, World};
 use super::vectors::Vectors;
 use crate::cavity::Cavity;
-use crate::contact::ContactForce;
 use crate::detector::{Detector, Pairs};
 use crate::integrator::Stage;
 use crate::law::{ContactLaw, Evaluation};
@@ -59,19 +59,6 @@ pub(crate) struct Scratch {
     pub(crate) listed: bool,
     /// Where forces are summed up, in turns with the column of accelerations, if both are wanted.
     force: Vectors,
-    /// Velocities, spins and rates of the mount after the impulses so far.
-    pub(crate) velocity: Vec<DVec3>,
-    pub(crate) spin: Vec<DVec3>,
-    pub(crate) rates: Vec<f64>,
-    /// What each container's velocity gains over the step without impulses.
-    pub(crate) gain: Vec<DVec3>,
-    /// What a free particle gains on each container over the step, m/s.
-    pub(crate) fall: Vec<f64>,
-    /// Where the containers were when the impulses of the step were struck.
-    pub(crate) origin: Vec<DVec3>,
-    /// What every contact has given in the step so far, in the order of the lists, if an observer
-    /// wants to know.
-    pub(crate) given: Vec<ContactForce>,
 }
 
 impl Scratch {
@@ -83,18 +70,9 @@ impl Scratch {
         scratch
     }
 
-    /// Sets the working velocities and spins to those of `particles`.
-    pub(crate) fn start_from(&mut self, particles: &Particles) {
-        self.velocity.clear();
-        self.velocity.extend(particles.velocity.iter());
-        self.spin.clear();
-        self.spin.extend(particles.spin.iter());
-    }
-
     /// Memory in bytes that it has reserved.
     pub(crate) fn reserved_bytes(&self) -> usize {
-        let vectors = [&self.local, &self.velocity, &self.spin];
-        size_of::<DVec3>() * vectors.map(Vec::capacity).iter().sum::<usize>()
+        size_of::<DVec3>() * self.local.capacity()
             + size_of::<u32>() * (self.rows.capacity() + self.partners.capacity())
             + self.reference.reserved_bytes()
             + self.force.reserved_bytes()
@@ -113,6 +91,8 @@ pub(crate) struct Engine<C, L: ContactLaw, M, D> {
     pub(crate) mount_state: MountState,
     pub(crate) blocks: Vec<Block<L>>,
     pub(crate) scratch: Scratch,
+    /// What the impulses of a step are worked out with; empty under a stiff law.
+    pub(crate) joints: Joints<L>,
     /// Loads of the particles on each wall, all cavities in turn.
     pub(crate) wall_loads: Vec<WallLoad>,
     /// Forces of the particles on each container.

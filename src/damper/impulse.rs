@@ -1,14 +1,15 @@
 //! Impulse laws: one evaluation at the start of a step, held over the step.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::Partner;
-use super::block::Block;
+use super::block::{Block, Place};
 use super::candidates::Candidates;
 use super::engine::Engine;
 use super::error::StepError;
-use super::scene::{Grain, PairContact, Scene, WallLoad, wall_contact};
+use super::scene::WallLoad;
 use super::smallest_radius;
+use super::vectors::vector;
 use crate::cavity::Cavity;
 use crate::contact::ContactForce;
 use crate::detector::Detector;
@@ -16,11 +17,14 @@ use crate::law::{ContactLaw, Evaluation};
 use crate::mount::Mount;
 use crate::observer::Observer;
 
-mod carry;
+mod joint;
 mod pass;
 mod report;
+mod together;
 
-use pass::Pass;
+use joint::{Air, Container, Joint};
+
+pub(crate) use joint::Joints;
 
 /// How often the contacts are gone through at the most.
 const ROUNDS: usize = 16;
@@ -50,22 +54,22 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     ) -> Result<(), StepError> {
         self.place_containers(self.time)?;
         self.find_contacts(true)?;
-        for block in &mut self.blocks {
-            block.forget();
+        self.look_ahead(time_step);
+        self.list_joints();
+        if observer.wants_contacts() {
+            let joints = self.joints.pairs.len() + self.joints.walls.len();
+            self.joints.given.resize(joints, ContactForce::default());
         }
-        self.prepare_impulses(time_step, observer.wants_contacts());
+        self.start_impulses(time_step);
         if self.world.law.evaluation() == Evaluation::Sequential {
             let resting = Candidates::<L>::REMEMBERS && self.carry_impulses(time_step);
             self.strike_in_rounds(time_step, resting);
         } else {
-            self.pass(Pass::Simultaneous, time_step);
-            self.advance_memories(time_step);
+            self.strike_at_once();
         }
-        for block in &mut self.blocks {
-            block.contacts = block.contacts_in_reach();
-        }
+        self.keep_memories();
         if observer.wants_contacts() {
-            self.report_impulses(time_step, observer);
+            self.report_impulses(observer);
         }
         self.hold(time_step)?;
         self.world.stamp = self.world.stamp.wrapping_add(1);
@@ -77,55 +81,159 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// what is left of the approach cannot make a notable overlap.
     fn strike_in_rounds(&mut self, time_step: f64, mut resting: bool) {
         let negligible = NEGLIGIBLE_APPROACH * smallest_radius(&self.particles.kinds) / time_step;
-        let fall = self.scratch.fall.iter().copied().fold(0.0, f64::max);
+        let containers = self.joints.containers.iter();
+        let fall = containers
+            .map(|container| container.air[0].fall)
+            .fold(0.0, f64::max);
         for round in 0..ROUNDS {
-            let ascending = round.is_multiple_of(2);
-            let passed = self.pass(Pass::Sequential { ascending }, time_step);
-            resting &= passed.approach < STIRRED * fall;
-            let still = !resting || round + 1 >= RESTING_ROUNDS || passed.approach < STILL * fall;
-            if passed.approach < negligible && still {
+            let approach = self.strike_in_turn(round.is_multiple_of(2));
+            resting &= approach < STIRRED * fall;
+            let still = !resting || round + 1 >= RESTING_ROUNDS || approach < STILL * fall;
+            if approach < negligible && still {
                 break;
             }
         }
     }
 
-    /// Sets the working velocities, and looks ahead to what the containers gain over the step.
-    fn prepare_impulses(&mut self, time_step: f64, watched: bool) {
+    /// Looks ahead to what the containers gain over the step without impulses.
+    fn look_ahead(&mut self, time_step: f64) {
         self.wall_loads.fill(WallLoad::default());
         self.accelerate_mount(self.time);
         let degrees = self.mount.degrees();
         let state = &self.mount_state;
-        let coordinates = &state.position[..degrees];
-        let rates = &state.velocity[..degrees];
-        let scratch = &mut self.scratch;
-        scratch.start_from(&self.particles);
-
+        let joints = &mut self.joints;
+        let rates = state.velocity[..degrees].iter();
         let ahead = rates
-            .iter()
             .zip(&state.acceleration)
             .map(|(v, a)| v + a * time_step);
-        scratch.rates.clear();
-        scratch.rates.extend(ahead);
-        scratch.gain.clear();
-        scratch.fall.clear();
-        scratch.origin.clear();
+        joints.rates.clear();
+        joints.rates.extend(ahead);
+        joints.containers.clear();
         let end = self.time + time_step;
         for (cavity, room) in self.world.rooms.iter().enumerate() {
-            let ahead = self.mount.motion(end, coordinates, &scratch.rates, cavity);
+            let coordinates = &state.position[..degrees];
+            let ahead = self.mount.motion(end, coordinates, &joints.rates, cavity);
             let gain = ahead.velocity - room.motion.velocity;
-            scratch.gain.push(gain);
-            scratch.origin.push(room.motion.position);
-            scratch
-                .fall
-                .push((self.gravity * time_step - gain).length());
+            let pair = Air {
+                ahead: DVec3::ZERO,
+                fall: (self.gravity * time_step - gain).length(),
+                time_step,
+                mobility: DMat3::ZERO,
+            };
+            let wall = Air {
+                ahead: self.gravity * time_step - gain,
+                mobility: self.mount.mobility(cavity),
+                ..pair
+            };
+            joints.containers.push(Container {
+                velocity: room.motion.velocity,
+                origin: room.motion.position,
+                air: [pair, wall],
+            });
         }
-        scratch.rates.clear();
-        scratch.rates.extend_from_slice(rates);
+    }
 
-        scratch.given.clear();
-        if watched {
-            let contacts = self.blocks.iter().map(Block::contacts_in_reach).sum();
-            scratch.given.resize(contacts, ContactForce::default());
+    /// Lists the contacts in reach as they stand: of all blocks the pairs, then the walls.
+    fn list_joints(&mut self) {
+        let count = |list: fn(&Block<L>) -> usize| self.blocks.iter().map(list).sum();
+        let pairs = count(|block| block.pairs.contacts.len() + block.border.contacts.len());
+        self.joints
+            .clear(pairs, count(|block| block.walls.contacts.len()));
+        let particles = &self.particles;
+        let scene = self.world.scene(particles, 0.0);
+        let several = self.world.rooms.len() > 1;
+        let [x, y, z] = scene.position;
+        let joints = &mut self.joints;
+        for block in &mut self.blocks {
+            block.forget();
+            block.contacts = block.contacts_in_reach();
+            let mut deepest = 0.0_f64;
+            for list in [&block.pairs, &block.border] {
+                for touch in list.touching() {
+                    let [i, j] = touch.bodies.map(|slot| slot as usize);
+                    let radii = [particles.radius[i], particles.radius[j]];
+                    let mut towards = DVec3::new(x[i] - x[j], y[i] - y[j], 0.0);
+                    if !scene.planar {
+                        towards.z = z[i] - z[j];
+                    }
+                    let distance = towards.length();
+                    let overlap = radii[0] + radii[1] - distance;
+                    deepest = deepest.max(overlap);
+                    let remembered = list.touched(touch.place, scene.stamp);
+                    joints.pairs.push(Joint {
+                        bodies: touch.bodies,
+                        cavity: if several {
+                            self.world.cavity_of(i) as u32
+                        } else {
+                            0
+                        },
+                        remembers: remembered.is_some(),
+                        radii,
+                        // Coincident centres have no normal and feel no force.
+                        normal: towards * (1.0 / (distance + f64::MIN_POSITIVE)),
+                        overlap,
+                        memory: remembered.copied().unwrap_or_default(),
+                    });
+                    if scene.coefficients.only_pair().is_none() {
+                        let kinds = [particles.species[i], particles.species[j]];
+                        let own = list.prepared(touch.place);
+                        let kind = scene.coefficients.pair(kinds[0], kinds[1], own);
+                        joints.kinds.push(kind);
+                    }
+                }
+            }
+            for touch in block.walls.touching() {
+                let (slot, wall) = (touch.bodies[0] as usize, touch.bodies[1]);
+                let point = scene.wall_point(wall, vector(&scene.position, slot));
+                let radius = particles.radius[slot];
+                let overlap = radius - point.distance;
+                deepest = deepest.max(overlap);
+                if point.distance < 0.0 {
+                    let room = scene.room_of_wall(wall);
+                    let partner = Partner::Wall(wall - room.first_wall);
+                    block.escaped = Some(Place { slot, partner });
+                }
+                let remembered = block.walls.touched(touch.place, scene.stamp);
+                joints.walls.push(Joint {
+                    bodies: touch.bodies,
+                    cavity: scene.cavity_of_wall(wall) as u32,
+                    remembers: remembered.is_some(),
+                    radii: [radius, 0.0],
+                    normal: point.normal,
+                    overlap,
+                    memory: remembered.copied().unwrap_or_default(),
+                });
+            }
+            block.largest_overlap = deepest;
+        }
+    }
+
+    /// Sets out from the velocities at the start of the step.
+    fn start_impulses(&mut self, time_step: f64) {
+        let degrees = self.mount.degrees();
+        let rates = &self.mount_state.velocity[..degrees];
+        self.joints.start(&self.particles, rates, time_step);
+        for (container, room) in self.joints.containers.iter_mut().zip(&self.world.rooms) {
+            container.velocity = room.motion.velocity;
+        }
+        self.joints.given.fill(ContactForce::default());
+        self.wall_loads.fill(WallLoad::default());
+    }
+
+    /// Keeps what joints remember in the lists of their contacts.
+    fn keep_memories(&mut self) {
+        if !Candidates::<L>::REMEMBERS {
+            return;
+        }
+        let stamp = self.world.stamp.wrapping_add(1);
+        let remembered = |joint: &Joint<L::Memory>| joint.remembers.then_some(joint.memory);
+        let mut pairs = self.joints.pairs.iter().map(remembered);
+        let mut walls = self.joints.walls.iter().map(remembered);
+        for block in &mut self.blocks {
+            for list in [&mut block.pairs, &mut block.border] {
+                list.keep_all(stamp, || pairs.next().flatten());
+            }
+            block.walls.keep_all(stamp, || walls.next().flatten());
         }
     }
 
@@ -133,9 +241,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// radius, the walls that meet them are not looked at before the next.
     pub(crate) fn check_left_behind(&self) -> Result<(), StepError> {
         let radius = smallest_radius(&self.particles.kinds);
-        for (room, origin) in self.world.rooms.iter().zip(&self.scratch.origin) {
+        for (room, container) in self.world.rooms.iter().zip(&self.joints.containers) {
             let position = room.motion.position;
-            if !self.contained || position.distance(*origin) <= radius {
+            if !self.contained || position.distance(container.origin) <= radius {
                 continue;
             }
             for slot in room.slots.clone() {
@@ -149,74 +257,20 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         Ok(())
     }
 
-    /// Advances the memory of all contacts, with the velocities after the impulses.
-    fn advance_memories(&mut self, time_step: f64) {
-        if !Candidates::<L>::REMEMBERS {
-            return;
-        }
-        let particles = &self.particles;
-        let scene = self.world.scene(particles, time_step);
-        let (velocity, spin) = (&self.scratch.velocity, &self.scratch.spin);
-        let struck = |slot: usize| struck(&scene, slot, velocity, spin);
-        let next = scene.stamp.wrapping_add(1);
-        for block in &mut self.blocks {
-            for list in [&mut block.pairs, &mut block.border] {
-                for number in 0..list.contacts.len() {
-                    let touch = list.touch(number);
-                    let [i, j] = touch.bodies.map(|slot| slot as usize);
-                    let pair = PairContact::new(&struck(i), &struck(j), time_step);
-                    let own = list.prepared(touch.place);
-                    let kinds = (particles.species[i], particles.species[j]);
-                    let kind = scene.coefficients.pair(kinds.0, kinds.1, own);
-                    let memory = list.memory(touch.place, scene.stamp);
-                    let memory = scene.law.advance(&kind, &pair.contact, &memory);
-                    list.keep(touch.place, next, memory);
-                }
-            }
-            let walls = &mut block.walls;
-            for number in 0..walls.contacts.len() {
-                let touch = walls.touch(number);
-                let (slot, wall) = (touch.bodies[0] as usize, touch.bodies[1]);
-                let grain = struck(slot);
-                let point = scene.wall_point(wall, grain.position);
-                let container = scene.room_of_wall(wall).motion.velocity;
-                let contact = wall_contact(&grain, &point, container, time_step);
-                let kind = scene.coefficients.wall(particles.species[slot]);
-                let memory = walls.memory(touch.place, scene.stamp);
-                let memory = scene.law.advance(kind, &contact, &memory);
-                walls.keep(touch.place, next, memory);
-            }
-        }
-    }
-
     /// Turns the velocities after the impulses into accelerations that lead to them.
     fn hold(&mut self, time_step: f64) -> Result<(), StepError> {
-        let (scratch, particles) = (&self.scratch, &mut self.particles);
+        let (movers, particles) = (&self.joints.movers, &mut self.particles);
         let rate = 1.0 / time_step;
-        let struck = scratch.velocity.iter().zip(particles.velocity.iter());
-        let struck = struck.map(|(struck, before)| (struck - before) * rate + self.gravity);
+        let struck = movers.iter().zip(particles.velocity.iter());
+        let struck = struck.map(|(mover, before)| (mover.velocity - before) * rate + self.gravity);
         particles.acceleration.assign(struck);
-        let turned = scratch.spin.iter().zip(particles.spin.iter());
-        let turned = turned.map(|(turned, before)| (turned - before) * rate);
+        let turned = movers.iter().zip(particles.spin.iter());
+        let turned = turned.map(|(mover, before)| (mover.spin - before) * rate);
         particles.angular_acceleration.assign(turned);
         if particles.acceleration.is_finite() && particles.angular_acceleration.is_finite() {
             Ok(())
         } else {
             self.check_accelerations()
         }
-    }
-}
-
-/// The particle in a slot with other velocities than the scene's own.
-fn struck<C: Cavity, L: ContactLaw>(
-    scene: &Scene<'_, C, L>,
-    slot: usize,
-    velocity: &[DVec3],
-    spin: &[DVec3],
-) -> Grain {
-    Grain {
-        velocity: velocity[slot],
-        spin: spin[slot],
-        ..scene.grain(slot)
     }
 }

@@ -5,14 +5,13 @@
 
 use std::ops::Range;
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::chunk::Moment;
 use super::coefficients::Coefficients;
 use super::particles::Particles;
 use super::vectors::{Components, vector};
 use crate::cavity::{Cavity, WallPoint};
-use crate::contact::{Contact, ContactForce};
 use crate::law::ContactLaw;
 use crate::mount::Motion;
 
@@ -116,72 +115,6 @@ pub(crate) struct Grain {
     pub(crate) velocity: DVec3,
     pub(crate) spin: DVec3,
     pub(crate) radius: f64,
-}
-
-/// Two particles that touch.
-pub(crate) struct PairContact {
-    pub(crate) contact: Contact,
-    radii: [f64; 2],
-}
-
-impl PairContact {
-    /// The contact of two particles, `elapsed` seconds after its memory was advanced. Coincident
-    /// centres have no normal and feel no force.
-    #[inline(always)]
-    pub(crate) fn new(first: &Grain, second: &Grain, elapsed: f64) -> Self {
-        let towards = first.position - second.position;
-        let distance = towards.length();
-        let normal = towards * (1.0 / (distance + f64::MIN_POSITIVE));
-        let turning = first.spin * first.radius + second.spin * second.radius;
-        let velocity = first.velocity - second.velocity - turning.cross(normal);
-        Self {
-            contact: Contact {
-                normal,
-                overlap: first.radius + second.radius - distance,
-                velocity,
-                velocity_ahead: velocity,
-                fall: 0.0,
-                spins: [first.spin, second.spin],
-                elapsed,
-                mobility: DMat3::ZERO,
-            },
-            radii: [first.radius, second.radius],
-        }
-    }
-
-    /// Force on the first body, and torques on the first and on the second.
-    #[inline(always)]
-    pub(crate) fn resolve(&self, answer: &ContactForce) -> (DVec3, DVec3, DVec3) {
-        let normal = self.contact.normal;
-        let force = normal * answer.normal + answer.tangential;
-        let turn = answer.tangential.cross(normal);
-        let first = turn * self.radii[0] + answer.couple;
-        let second = turn * self.radii[1] - answer.couple;
-        (force, first, second)
-    }
-}
-
-/// The contact of a particle with a wall that stands to it as `wall`, in a container that moves with
-/// velocity `container`.
-#[inline(always)]
-pub(crate) fn wall_contact(
-    grain: &Grain,
-    wall: &WallPoint,
-    container: DVec3,
-    elapsed: f64,
-) -> Contact {
-    let turning = grain.spin * grain.radius;
-    let velocity = grain.velocity - container - turning.cross(wall.normal);
-    Contact {
-        normal: wall.normal,
-        overlap: grain.radius - wall.distance,
-        velocity,
-        velocity_ahead: velocity,
-        fall: 0.0,
-        spins: [grain.spin, DVec3::ZERO],
-        elapsed,
-        mobility: DMat3::ZERO,
-    }
 }
 
 impl<C> Room<C> {

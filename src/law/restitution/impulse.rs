@@ -29,10 +29,13 @@ pub struct RestitutionCoefficients {
     friction: f64,
     /// Rolling friction coefficient times the effective radius, m.
     rolling_arm: f64,
-    /// 1/m of the first body, 1/kg.
-    inverse_mass: f64,
-    /// What spin adds to the inverse mass in the tangent plane, 1/kg.
+    /// Relative velocity per unit impulse along the normal, but for what the mount of a wall yields,
+    /// 1/kg.
+    yielding: f64,
+    /// The same across it, where spin adds to it, 1/kg.
     turning: f64,
+    /// Whether the second body is a wall, which may yield.
+    at_wall: bool,
     /// Sum of the inverse moments of inertia, 1/(kg m^2).
     inverse_inertia: f64,
     /// Relative spin per unit tangential impulse, and slip per unit angular impulse, in 1/(kg m).
@@ -88,8 +91,9 @@ impl RestitutionCoefficients {
             restitution: interaction.restitution,
             friction: slides * interaction.friction,
             rolling_arm: slides * interaction.rolling_friction * bodies.effective_radius(),
-            inverse_mass: 1.0 / first.mass,
-            turning: 2.5 / first.mass + 2.5 / second.mass,
+            yielding: 1.0 / first.mass + 1.0 / second.mass,
+            turning: 3.5 / first.mass + 3.5 / second.mass,
+            at_wall: bodies.at_wall(),
             inverse_inertia: inverse_inertia(first.radius, first.mass)
                 + inverse_inertia(second.radius, second.mass),
             coupling: 2.5 / (first.mass * first.radius) - 2.5 / (second.mass * second.radius),
@@ -101,10 +105,25 @@ impl RestitutionCoefficients {
         self.smaller_radius
     }
 
-    /// Relative velocity per unit impulse along a unit vector, without spin, 1/kg.
+    /// Relative velocity per unit impulse along the normal, 1/kg.
     #[inline(always)]
-    fn yielding(&self, contact: &Contact, along: DVec3) -> f64 {
-        self.inverse_mass + along.dot(contact.mobility * along)
+    fn yielding(&self, contact: &Contact) -> f64 {
+        if self.at_wall {
+            self.yielding + contact.normal.dot(contact.mobility * contact.normal)
+        } else {
+            self.yielding
+        }
+    }
+
+    /// Relative surface velocity per unit impulse across the normal, along `slip`, 1/kg.
+    #[inline(always)]
+    fn turning(&self, contact: &Contact, slip: DVec3) -> f64 {
+        if self.at_wall {
+            let along = slip.dot(contact.mobility * slip);
+            self.turning + along / slip.length_squared().max(f64::MIN_POSITIVE)
+        } else {
+            self.turning
+        }
     }
 
     /// How long before they touch bodies are struck, s.
@@ -116,7 +135,7 @@ impl RestitutionCoefficients {
     /// Eqs (10) to (12).
     pub(super) fn literal(&self, contact: &Contact) -> ContactForce {
         let approach = contact.approach_speed().max(0.0);
-        let impulse = (1.0 + self.restitution) * approach / self.yielding(contact, contact.normal);
+        let impulse = (1.0 + self.restitution) * approach / self.yielding(contact);
         ContactForce::new(impulse / contact.elapsed, DVec3::ZERO)
     }
 
@@ -134,7 +153,7 @@ impl RestitutionCoefficients {
         if held.bearing == 0.0 {
             return REST * contact.fall;
         }
-        let load = held.bearing * contact.elapsed * self.yielding(contact, contact.normal);
+        let load = held.bearing * contact.elapsed * self.yielding(contact);
         REST * (contact.fall + load)
     }
 
@@ -155,46 +174,40 @@ impl RestitutionCoefficients {
         let lifting = (SETTLING * sunk).min(ahead);
         let parting = self.restitution * contact.overlap.max(0.0) * rate;
         let correction = parting.min(approach).max(lifting);
-        let yielding = self.yielding(contact, normal);
-        held.borne += ahead / yielding * rate;
+        let force = rate / self.yielding(contact);
+        held.borne += ahead * force;
         held.weight = contact.fall * rate;
-        let impulse = (ahead + rebound.max(correction)) / yielding;
+        let pressing = (ahead + rebound.max(correction)) * force;
         let slip = contact.velocity_ahead + ahead * normal;
-        self.held(contact, impulse, slip, contact.spins[0] - contact.spins[1])
+        self.hold(contact, pressing, slip, &ContactForce::default())
     }
 
-    /// What bodies at rest on each other, which give each other `held` so far, add to it: as much as
-    /// makes the sum what it would be if they met afresh.
+    /// What bodies at rest on each other, which give each other `held` so far, add to it: what ends
+    /// their approach and slip, as far as the sum pushes and is within reach of friction.
     #[inline(always)]
     pub(super) fn rest(&self, contact: &Contact, held: &mut RestingForce) -> ContactForce {
-        let before = *held;
-        let normal = contact.normal;
-        let [velocity, spin] = if before.normal == 0.0 {
-            let ahead = -contact.velocity_ahead.dot(normal);
+        let before = held.force();
+        let ahead = -contact.velocity_ahead.dot(contact.normal);
+        if before.normal == 0.0 {
             let nearing = contact.approach_speed().max(ahead).max(0.0);
             if contact.overlap < -self.early(contact) * nearing {
                 return ContactForce::default();
             }
-            [contact.velocity_ahead, contact.spins[0]]
-        } else {
-            let [velocity, spin] = self.given_by(contact, &before);
-            [contact.velocity_ahead - velocity, contact.spins[0] - spin]
-        };
-        let ahead = -velocity.dot(normal);
-        let sunk = (contact.overlap - KEPT * self.smaller_radius).max(0.0);
+        }
+        let sunk = contact.overlap - KEPT * self.smaller_radius;
         let lift = if sunk > 0.0 {
             (LIFT * sunk / contact.elapsed).min(self.slow(contact, held) / REST)
         } else {
             0.0
         };
-        let impulse = (ahead + lift) / self.yielding(contact, normal);
-        if impulse <= 0.0 {
+        let rate = 1.0 / contact.elapsed;
+        let normal = before.normal + (ahead + lift) * (rate / self.yielding(contact));
+        if normal <= 0.0 {
             held.set(&ContactForce::default());
         } else {
-            let slip = velocity + ahead * normal;
-            let spin = spin - contact.spins[1];
-            held.set(&self.held(contact, impulse, slip, spin));
-            held.weight = contact.fall / contact.elapsed;
+            let slip = contact.velocity_ahead + ahead * contact.normal;
+            held.set(&self.hold(contact, normal, slip, &before));
+            held.weight = contact.fall * rate;
         }
         ContactForce {
             normal: held.normal - before.normal,
@@ -229,7 +242,7 @@ impl RestitutionCoefficients {
             0.0
         };
         let borne = change * (held.borne + held.normal);
-        let own = weight / self.yielding(contact, contact.normal);
+        let own = weight / self.yielding(contact);
         held.bearing = borne.min(GROWTH * held.bearing + own);
         held.borne = 0.0;
         held.weight = weight;
@@ -237,70 +250,71 @@ impl RestitutionCoefficients {
         held.couple *= change;
         held.normal = held.bearing;
         let across = held.tangential - held.tangential.dot(contact.normal) * contact.normal;
-        held.tangential = across.clamp_length_max(self.friction * held.normal);
-        held.couple = held.couple.clamp_length_max(self.rolling_arm * held.normal);
+        held.tangential = cut(across, self.friction * held.normal);
+        held.couple = cut(held.couple, self.rolling_arm * held.normal);
         held.force()
     }
 
-    /// Relative surface velocity (m/s) and spin (rad/s) that `held` has given the bodies.
+    /// The force that presses with `normal` (N) and adds to `before` what ends `slip`, and rolling where
+    /// the bodies resist it, as far as friction and rolling resistance reach.
     #[inline(always)]
-    fn given_by(&self, contact: &Contact, held: &RestingForce) -> [DVec3; 2] {
-        let dt = contact.elapsed;
-        let normal = contact.normal;
-        let (across, couple) = (held.tangential * dt, held.couple * dt);
-        let impulse = normal * (held.normal * dt) + across;
-        let velocity =
-            impulse * self.inverse_mass + contact.mobility * impulse + across * self.turning
-                - couple.cross(normal) * self.coupling;
-        let spin = across.cross(normal) * self.coupling + couple * self.inverse_inertia;
-        [velocity, spin]
-    }
-
-    /// The force of an `impulse` (N s) along the normal, with what resists `slip` and the relative `spin`.
-    #[inline(always)]
-    fn held(&self, contact: &Contact, impulse: f64, slip: DVec3, spin: DVec3) -> ContactForce {
-        let rate = 1.0 / contact.elapsed;
-        let mut force = ContactForce::new(impulse * rate, DVec3::ZERO);
-        let speed = slip.length();
-        if self.friction > 0.0 && speed > 0.0 {
-            let direction = slip / speed;
-            let sticking = speed / (self.yielding(contact, direction) + self.turning);
-            force.tangential = direction * (-rate * sticking.min(self.friction * impulse));
-        }
+    fn hold(
+        &self,
+        contact: &Contact,
+        normal: f64,
+        slip: DVec3,
+        before: &ContactForce,
+    ) -> ContactForce {
+        let mut force = ContactForce::new(normal, DVec3::ZERO);
+        let turning = self.turning(contact, slip) * contact.elapsed;
         if self.rolling_arm > 0.0 {
-            let direction = slip.try_normalize().unwrap_or_default();
-            let yielding = self.yielding(contact, direction) + self.turning;
-            let [tangential, couple] = self.roll(contact.normal, [slip, spin], yielding, impulse);
-            force.tangential = tangential * rate;
-            force.couple = couple * rate;
+            let [tangential, couple] = self.roll(contact, [normal, turning], slip, before);
+            force.tangential = tangential;
+            force.couple = couple;
+        } else if self.friction > 0.0 {
+            let sticking = before.tangential - slip * (1.0 / turning);
+            force.tangential = cut(sticking, self.friction * normal);
         }
         force
     }
 
-    /// Tangential and angular impulse that end slip and rolling (relative spin) together, as far as
-    /// `impulse` (N s) along the normal lets friction and rolling resistance reach. `yielding` is slip per
-    /// unit tangential impulse in 1/kg.
+    /// Tangential force and couple, `before` included, that end slip and rolling (relative spin)
+    /// together, as far as friction and rolling resistance reach under the force `normal` (N).
+    /// `turning` is slip per unit tangential force over the step in m/s/N.
     fn roll(
         &self,
-        normal: DVec3,
-        [slip, spin]: [DVec3; 2],
-        yielding: f64,
-        impulse: f64,
+        contact: &Contact,
+        [normal, turning]: [f64; 2],
+        slip: DVec3,
+        before: &ContactForce,
     ) -> [DVec3; 2] {
-        let (across, along) = (self.friction * impulse, self.rolling_arm * impulse);
-        let coupling = self.coupling;
+        let (across, along) = (self.friction * normal, self.rolling_arm * normal);
+        let dt = contact.elapsed;
+        let (coupling, inverse_inertia) = (self.coupling * dt, self.inverse_inertia * dt);
         // Spins and couples turned into the tangent plane: a quarter turn about the normal.
-        let rolling = spin.cross(normal);
-        let determinant = yielding * self.inverse_inertia - coupling * coupling;
-        let stop = -(slip * coupling + rolling * yielding) / determinant;
-        let mut turn = stop.clamp_length_max(along);
-        let mut push = (turn * coupling - slip) / yielding;
-        if push.length() > across {
-            push = push.clamp_length_max(across);
-            turn = (push * coupling - rolling) / self.inverse_inertia;
-            turn = turn.clamp_length_max(along);
+        let rolling = (contact.spins[0] - contact.spins[1]).cross(contact.normal);
+        let turned = before.couple.cross(contact.normal);
+        let determinant = turning * inverse_inertia - coupling * coupling;
+        let stop = turned - (slip * coupling + rolling * turning) / determinant;
+        let mut turn = cut(stop, along);
+        let mut push = before.tangential + ((turn - turned) * coupling - slip) / turning;
+        if push.length_squared() > across * across {
+            push = cut(push, across);
+            let given = push - before.tangential;
+            turn = cut(turned + (given * coupling - rolling) / inverse_inertia, along);
         }
-        [push, normal.cross(turn)]
+        [push, contact.normal.cross(turn)]
+    }
+}
+
+/// `vector`, cut down to `length` (not negative).
+#[inline(always)]
+fn cut(vector: DVec3, length: f64) -> DVec3 {
+    let square = vector.length_squared();
+    if square > length * length {
+        vector * (length / square.sqrt())
+    } else {
+        vector
     }
 }
 
