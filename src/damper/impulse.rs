@@ -30,18 +30,15 @@ pub(crate) use joint::Joints;
 const ROUNDS: usize = 16;
 
 /// How often they are gone through if some bear what they bore in the step before.
-const RESTING_ROUNDS: usize = 4;
+const RESTING_ROUNDS: usize = 2;
 
-/// Approach within a step, as a part of what a particle gains in free fall, that needs no further
-/// round of a bed at rest.
+/// Speed given in a round, as a part of what a particle gains in free fall over the step, that needs no
+/// further round of a bed at rest.
 const STILL: f64 = 0.02;
 
-/// Approach in the first round, as a multiple of what a particle gains in free fall, from which a bed is
-/// not taken for one at rest.
-const STIRRED: f64 = 20.0;
-
-/// Approach within a step, as a fraction of the smallest radius, that needs no further round.
-const NEGLIGIBLE_APPROACH: f64 = 0.01;
+/// Way in a step at the speed given in a round, as a fraction of the smallest radius, that needs no
+/// further round.
+const NEGLIGIBLE: f64 = 0.01;
 
 impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Strikes all contacts, and leaves the accelerations that hold over a step of `time_step`.
@@ -78,18 +75,16 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     }
 
     /// Rounds to and fro, so that an impulse crosses the bed in one step whichever way it goes, until
-    /// what is left of the approach cannot make a notable overlap.
-    fn strike_in_rounds(&mut self, time_step: f64, mut resting: bool) {
-        let negligible = NEGLIGIBLE_APPROACH * smallest_radius(&self.particles.kinds) / time_step;
+    /// one makes no notable change.
+    fn strike_in_rounds(&mut self, time_step: f64, resting: bool) {
+        let negligible = NEGLIGIBLE * smallest_radius(&self.particles.kinds) / time_step;
         let containers = self.joints.containers.iter();
-        let fall = containers
-            .map(|container| container.air[0].fall)
-            .fold(0.0, f64::max);
+        let fall = containers.map(|container| container.air[0].fall);
+        let still = STILL * fall.fold(0.0, f64::max);
         for round in 0..ROUNDS {
-            let approach = self.strike_in_turn(round.is_multiple_of(2));
-            resting &= approach < STIRRED * fall;
-            let still = !resting || round + 1 >= RESTING_ROUNDS || approach < STILL * fall;
-            if approach < negligible && still {
+            let change = self.strike_in_turn(round.is_multiple_of(2));
+            let settled = !resting || round + 1 >= RESTING_ROUNDS || change < still;
+            if change < negligible && settled {
                 break;
             }
         }

@@ -4,7 +4,7 @@
 #![allow(clippy::inline_always)]
 
 use crate::cavity::Cavity;
-use crate::contact::{Contact, ContactForce};
+use crate::contact::ContactForce;
 use crate::damper::engine::Engine;
 use crate::detector::Detector;
 use crate::law::ContactLaw;
@@ -18,21 +18,22 @@ const fn larger(a: f64, b: f64) -> f64 {
 
 impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Strikes all pairs, then all walls, each with the velocities that those before it left. Returns
-    /// the largest speed in m/s at which two bodies approached that were struck.
+    /// the largest speed in m/s along the normal that particles were given relative to each other, or
+    /// to a wall.
     pub(super) fn strike_in_turn(&mut self, ascending: bool) -> f64 {
-        let mut approach = 0.0;
+        let mut change = 0.0;
         for turn in 0..self.joints.pairs.len() {
             let number = if ascending {
                 turn
             } else {
                 self.joints.pairs.len() - 1 - turn
             };
-            approach = larger(approach, self.strike_pair(number));
+            change = larger(change, self.strike_pair(number));
         }
         for number in 0..self.joints.walls.len() {
-            approach = larger(approach, self.strike_wall(number));
+            change = larger(change, self.strike_wall(number));
         }
-        approach
+        change
     }
 
     #[inline(always)]
@@ -55,10 +56,11 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let [i, j] = joint.bodies.map(|slot| slot as usize);
         joints.movers[i].take(force, first);
         joints.movers[j].take(-force, second);
+        let gain = joints.movers[i].gain + joints.movers[j].gain;
         if let Some(given) = joints.given.get_mut(number) {
             given.add(&answer);
         }
-        speed(&contact)
+        answer.normal.abs() * gain
     }
 
     fn strike_wall(&mut self, number: usize) -> f64 {
@@ -75,9 +77,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             return 0.0;
         }
         joint.remembers = true;
+        let gain = joints.movers[joint.bodies[0] as usize].gain;
         self.push_wall(number, &answer);
         self.move_containers();
-        speed(&contact)
+        answer.normal.abs() * gain
     }
 
     /// Gives a particle and a wall what their joint answers.
@@ -113,11 +116,4 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             container.velocity = motion.velocity;
         }
     }
-}
-
-/// How fast bodies approach, or part from, each other over the step without the contact, m/s.
-#[inline(always)]
-fn speed(contact: &Contact) -> f64 {
-    let ahead = -contact.velocity_ahead.dot(contact.normal);
-    larger(contact.approach_speed(), ahead.abs())
 }
