@@ -1,6 +1,6 @@
 //! Impulse laws: one evaluation at the start of a step, held over the step.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::Partner;
 use super::block::{Block, Place};
@@ -57,7 +57,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             let joints = self.joints.pairs.len() + self.joints.walls.len();
             self.joints.given.resize(joints, ContactForce::default());
         }
-        self.start_impulses(time_step);
+        self.joints.start(&self.particles, time_step);
+        self.start_impulses();
         if self.world.law.evaluation() == Evaluation::Sequential {
             let resting = Candidates::<L>::REMEMBERS && self.carry_impulses(time_step);
             self.strike_in_rounds(time_step, resting);
@@ -79,7 +80,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     fn strike_in_rounds(&mut self, time_step: f64, resting: bool) {
         let negligible = NEGLIGIBLE * smallest_radius(&self.particles.kinds) / time_step;
         let containers = self.joints.containers.iter();
-        let fall = containers.map(|container| container.air[0].fall);
+        let fall = containers.map(|container| container.air.fall);
         let still = STILL * fall.fold(0.0, f64::max);
         for round in 0..ROUNDS {
             let change = self.strike_in_turn(round.is_multiple_of(2));
@@ -109,21 +110,16 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             let coordinates = &state.position[..degrees];
             let ahead = self.mount.motion(end, coordinates, &joints.rates, cavity);
             let gain = ahead.velocity - room.motion.velocity;
-            let pair = Air {
-                ahead: DVec3::ZERO,
-                fall: (self.gravity * time_step - gain).length(),
-                time_step,
-                mobility: DMat3::ZERO,
-            };
-            let wall = Air {
-                ahead: self.gravity * time_step - gain,
-                mobility: self.mount.mobility(cavity),
-                ..pair
-            };
+            let ahead = self.gravity * time_step - gain;
             joints.containers.push(Container {
                 velocity: room.motion.velocity,
                 origin: room.motion.position,
-                air: [pair, wall],
+                air: Air {
+                    ahead,
+                    fall: ahead.length(),
+                    time_step,
+                    mobility: self.mount.mobility(cavity),
+                },
             });
         }
     }
@@ -204,14 +200,16 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     }
 
     /// Sets out from the velocities at the start of the step.
-    fn start_impulses(&mut self, time_step: f64) {
-        let degrees = self.mount.degrees();
-        let rates = &self.mount_state.velocity[..degrees];
-        self.joints.start(&self.particles, rates, time_step);
-        for (container, room) in self.joints.containers.iter_mut().zip(&self.world.rooms) {
+    fn start_impulses(&mut self) {
+        let joints = &mut self.joints;
+        joints.movers.clone_from(&joints.starts);
+        joints.rates.clear();
+        let rates = &self.mount_state.velocity[..self.mount.degrees()];
+        joints.rates.extend_from_slice(rates);
+        for (container, room) in joints.containers.iter_mut().zip(&self.world.rooms) {
             container.velocity = room.motion.velocity;
         }
-        self.joints.given.fill(ContactForce::default());
+        joints.given.fill(ContactForce::default());
         self.wall_loads.fill(WallLoad::default());
     }
 
@@ -254,14 +252,21 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
     /// Turns the velocities after the impulses into accelerations that lead to them.
     fn hold(&mut self, time_step: f64) -> Result<(), StepError> {
-        let (movers, particles) = (&self.joints.movers, &mut self.particles);
+        let (joints, particles) = (&self.joints, &mut self.particles);
         let rate = 1.0 / time_step;
-        let struck = movers.iter().zip(particles.velocity.iter());
-        let struck = struck.map(|(mover, before)| (mover.velocity - before) * rate + self.gravity);
-        particles.acceleration.assign(struck);
-        let turned = movers.iter().zip(particles.spin.iter());
-        let turned = turned.map(|(mover, before)| (mover.spin - before) * rate);
-        particles.angular_acceleration.assign(turned);
+        let gravity = self.gravity.to_array();
+        let velocity = particles.acceleration.components_mut().into_iter();
+        let spin = particles.angular_acceleration.components_mut().into_iter();
+        for (axis, (velocity, spin)) in velocity.zip(spin).enumerate() {
+            let both = || joints.movers.iter().zip(&joints.starts);
+            for (acceleration, (mover, start)) in velocity.iter_mut().zip(both()) {
+                let gain = mover.velocity[axis] - start.velocity[axis];
+                *acceleration = gain * rate + gravity[axis];
+            }
+            for (acceleration, (mover, start)) in spin.iter_mut().zip(both()) {
+                *acceleration = (mover.spin[axis] - start.spin[axis]) * rate;
+            }
+        }
         if particles.acceleration.is_finite() && particles.angular_acceleration.is_finite() {
             Ok(())
         } else {

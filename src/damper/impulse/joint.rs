@@ -8,6 +8,7 @@ use glam::{DMat3, DVec3};
 use crate::contact::{Contact, ContactForce};
 use crate::damper::candidates::make_room;
 use crate::damper::particles::Particles;
+use crate::damper::vectors::{Vectors, vector};
 use crate::law::ContactLaw;
 
 /// A particle between impulses.
@@ -26,9 +27,32 @@ pub(crate) struct Mover {
 impl Mover {
     /// Takes a force and a torque for the length of the step.
     #[inline(always)]
-    pub(super) fn take(&mut self, force: DVec3, torque: DVec3) {
-        self.velocity += force * self.gain;
-        self.spin += torque * self.turn;
+    pub(super) fn take<const PLANAR: bool>(&mut self, force: DVec3, torque: DVec3) {
+        if PLANAR {
+            self.velocity.x += force.x * self.gain;
+            self.velocity.y += force.y * self.gain;
+            self.spin.z += torque.z * self.turn;
+        } else {
+            self.velocity += force * self.gain;
+            self.spin += torque * self.turn;
+        }
+    }
+}
+
+/// A vector of the plane z = 0, of which the compiler sees that it is one.
+#[inline(always)]
+const fn flat<const PLANAR: bool>(vector: DVec3) -> DVec3 {
+    let z = if PLANAR { 0.0 } else { vector.z };
+    DVec3::new(vector.x, vector.y, z)
+}
+
+/// A spin in that plane.
+#[inline(always)]
+const fn upright<const PLANAR: bool>(spin: DVec3) -> DVec3 {
+    if PLANAR {
+        DVec3::new(0.0, 0.0, spin.z)
+    } else {
+        spin
     }
 }
 
@@ -50,57 +74,89 @@ pub(super) struct Joint<M> {
     pub(super) memory: M,
 }
 
+impl<M: Default> Joint<M> {
+    /// Notes whether `answer` is any, without which there is nothing to remember.
+    #[inline(always)]
+    pub(super) fn goes_on(&mut self, answer: &ContactForce) -> bool {
+        self.remembers = *answer != ContactForce::default();
+        if !self.remembers {
+            self.memory = M::default();
+        }
+        self.remembers
+    }
+}
+
 impl<M> Joint<M> {
-    /// The contact of two particles.
+    /// The contact of two particles. With `PLANAR` all motion is in the plane z = 0.
     #[inline(always)]
-    pub(super) fn between(&self, [first, second]: [&Mover; 2], container: &Container) -> Contact {
-        let velocity = first.velocity - second.velocity;
-        self.contact(velocity, [first.spin, second.spin], &container.air[0])
+    pub(super) fn between<const PLANAR: bool>(
+        &self,
+        movers: &[Mover],
+        containers: &[Container],
+    ) -> Contact {
+        let [first, second] = self.bodies.map(|slot| &movers[slot as usize]);
+        let velocity = flat::<PLANAR>(first.velocity) - flat::<PLANAR>(second.velocity);
+        let spins = [first.spin, second.spin].map(upright::<PLANAR>);
+        let air = &containers[self.cavity as usize].air;
+        self.contact(flat::<PLANAR>(self.normal), velocity, spins, air)
     }
 
-    /// The contact of a particle with a wall of a container.
+    /// The contact of a particle with a wall.
     #[inline(always)]
-    pub(super) fn at_wall(&self, mover: &Mover, container: &Container) -> Contact {
+    pub(super) fn at_wall(&self, movers: &[Mover], containers: &[Container]) -> Contact {
+        let mover = &movers[self.bodies[0] as usize];
+        let container = &containers[self.cavity as usize];
         let velocity = mover.velocity - container.velocity;
-        self.contact(velocity, [mover.spin, DVec3::ZERO], &container.air[1])
+        let air = &container.air;
+        let contact = self.contact(self.normal, velocity, [mover.spin, DVec3::ZERO], air);
+        Contact {
+            velocity_ahead: contact.velocity + air.ahead,
+            mobility: air.mobility,
+            ..contact
+        }
     }
 
     #[inline(always)]
-    fn contact(&self, velocity: DVec3, spins: [DVec3; 2], air: &Air) -> Contact {
+    fn contact(&self, normal: DVec3, velocity: DVec3, spins: [DVec3; 2], air: &Air) -> Contact {
         let turning = spins[0] * self.radii[0] + spins[1] * self.radii[1];
-        let velocity = velocity - turning.cross(self.normal);
+        let velocity = velocity - turning.cross(normal);
         Contact {
-            normal: self.normal,
+            normal,
             overlap: self.overlap,
             velocity,
-            velocity_ahead: velocity + air.ahead,
+            velocity_ahead: velocity,
             fall: air.fall,
             spins,
             elapsed: air.time_step,
-            mobility: air.mobility,
+            mobility: DMat3::ZERO,
         }
     }
 
     /// Force on the first body, and torques on the first and on the second.
     #[inline(always)]
-    pub(super) fn resolve(&self, answer: &ContactForce) -> (DVec3, DVec3, DVec3) {
-        let force = self.normal * answer.normal + answer.tangential;
-        let turn = answer.tangential.cross(self.normal);
+    pub(super) fn resolve<const PLANAR: bool>(
+        &self,
+        answer: &ContactForce,
+    ) -> (DVec3, DVec3, DVec3) {
+        let normal = flat::<PLANAR>(self.normal);
+        let tangential = flat::<PLANAR>(answer.tangential);
+        let force = normal * answer.normal + tangential;
+        let turn = tangential.cross(normal);
         let first = turn * self.radii[0] + answer.couple;
         let second = turn * self.radii[1] - answer.couple;
         (force, first, second)
     }
 }
 
-/// What contacts of one kind in one cavity have in common.
+/// What happens to all bodies in a cavity over the step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Air {
-    /// Relative velocity that all but contacts add over the step, m/s.
+    /// Velocity that a free particle gains on the container over the step, m/s.
     pub(super) ahead: DVec3,
-    /// Speed that a free particle gains on the container over the step, m/s.
+    /// As a speed.
     pub(super) fall: f64,
     pub(super) time_step: f64,
-    /// Of the wall, 1/kg.
+    /// Of the container, 1/kg.
     pub(super) mobility: DMat3,
 }
 
@@ -111,8 +167,7 @@ pub(super) struct Container {
     pub(super) velocity: DVec3,
     /// Where it was when impulses were struck.
     pub(super) origin: DVec3,
-    /// For contacts of two particles, and for those with walls.
-    pub(super) air: [Air; 2],
+    pub(super) air: Air,
 }
 
 /// All that the impulses of a step are worked out with.
@@ -122,12 +177,13 @@ pub(crate) struct Joints<L: ContactLaw> {
     pub(super) walls: Vec<Joint<L::Memory>>,
     /// Coefficients of each pair, unless all have the same.
     pub(super) kinds: Vec<L::Coefficients>,
+    /// The particles at the start of the step.
+    pub(super) starts: Vec<Mover>,
+    /// The particles after the impulses so far.
     pub(super) movers: Vec<Mover>,
     pub(super) containers: Vec<Container>,
     /// Velocities of the mount's coordinates after the impulses so far.
     pub(super) rates: Vec<f64>,
-    /// What the joints answered to the velocities at the start of the step, pairs and then walls.
-    pub(super) answers: Vec<ContactForce>,
     /// What every joint has given in the step so far, pairs and then walls, if an observer wants to
     /// know.
     pub(super) given: Vec<ContactForce>,
@@ -139,10 +195,10 @@ impl<L: ContactLaw> Default for Joints<L> {
             pairs: Vec::new(),
             walls: Vec::new(),
             kinds: Vec::new(),
+            starts: Vec::new(),
             movers: Vec::new(),
             containers: Vec::new(),
             rates: Vec::new(),
-            answers: Vec::new(),
             given: Vec::new(),
         }
     }
@@ -157,36 +213,30 @@ impl<L: ContactLaw> Joints<L> {
         self.given.clear();
         make_room(&mut self.pairs, pairs);
         make_room(&mut self.walls, walls);
-        self.answers.clear();
-        make_room(&mut self.answers, pairs + walls);
     }
 
-    /// Sets particles and mount to their velocities at the start of the step.
-    pub(super) fn start(&mut self, particles: &Particles, rates: &[f64], time_step: f64) {
-        self.movers.clear();
-        let motions = particles.velocity.iter().zip(particles.spin.iter());
-        let inverse = particles
-            .inverse_mass
-            .iter()
-            .zip(&particles.inverse_inertia);
-        let movers = motions
-            .zip(inverse)
-            .map(|((velocity, spin), (mass, inertia))| Mover {
-                velocity,
-                spin,
-                gain: mass * time_step,
-                turn: inertia * time_step,
-            });
-        self.movers.extend(movers);
-        self.rates.clear();
-        self.rates.extend_from_slice(rates);
+    /// Takes over the velocities at the start of the step.
+    pub(super) fn start(&mut self, particles: &Particles, time_step: f64) {
+        let count = particles.len();
+        let [velocity, spin] = [&particles.velocity, &particles.spin].map(Vectors::components);
+        let inverse = (
+            &particles.inverse_mass[..count],
+            &particles.inverse_inertia[..count],
+        );
+        self.starts.clear();
+        self.starts.extend((0..count).map(|slot| Mover {
+            velocity: vector(&velocity, slot),
+            spin: vector(&spin, slot),
+            gain: inverse.0[slot] * time_step,
+            turn: inverse.1[slot] * time_step,
+        }));
     }
 
     /// Memory in bytes that is reserved.
     pub(crate) const fn reserved_bytes(&self) -> usize {
         size_of::<Joint<L::Memory>>() * (self.pairs.capacity() + self.walls.capacity())
             + size_of::<L::Coefficients>() * self.kinds.capacity()
-            + size_of::<Mover>() * self.movers.capacity()
-            + size_of::<ContactForce>() * (self.answers.capacity() + self.given.capacity())
+            + size_of::<Mover>() * (self.starts.capacity() + self.movers.capacity())
+            + size_of::<ContactForce>() * self.given.capacity()
     }
 }

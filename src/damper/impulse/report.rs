@@ -1,6 +1,5 @@
 //! What observers are told of impulses.
 
-use super::joint::{Container, Joints, Mover};
 use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce, Stored};
 use crate::damper::Partner;
@@ -13,58 +12,39 @@ use crate::observer::{ContactEvent, Observer};
 impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Tells `observer` of every contact that was struck, with the sum of what it was given.
     pub(super) fn report_impulses<O: Observer>(&self, observer: &mut O) {
-        let Joints {
-            pairs,
-            walls,
-            movers,
-            containers,
-            given,
-            ..
-        } = &self.joints;
-        let particles = &self.particles;
-        let number = |slot: u32| particles.number[slot as usize] as usize;
-        let after = |slot: u32| movers[slot as usize];
-        let before = |slot: u32| Mover {
-            velocity: particles.velocity.get(slot as usize),
-            spin: particles.spin.get(slot as usize),
-            ..after(slot)
-        };
-        let mut given = given.iter();
-        for (joint, given) in pairs.iter().zip(&mut given) {
+        let joints = &self.joints;
+        let number = |slot: u32| self.particles.number[slot as usize] as usize;
+        let mut given = joints.given.iter();
+        for (joint, given) in joints.pairs.iter().zip(&mut given) {
             if *given == ContactForce::default() {
                 continue;
             }
-            let cavity = joint.cavity as usize;
-            let contact = |mover: &dyn Fn(u32) -> Mover| {
-                let [first, second] = joint.bodies.map(mover);
-                joint.between([&first, &second], &containers[cavity])
-            };
+            let [before, after] = [&joints.starts, &joints.movers]
+                .map(|movers| joint.between::<false>(movers, &joints.containers));
             observer.contact(&ContactEvent {
                 particle: number(joint.bodies[0]),
                 partner: Partner::Particle(number(joint.bodies[1])),
-                cavity,
-                ..impulse(contact(&before), *given, &contact(&after))
+                cavity: joint.cavity as usize,
+                ..impulse(before, *given, &after)
             });
         }
-        for (joint, given) in walls.iter().zip(&mut given) {
+        for (joint, given) in joints.walls.iter().zip(&mut given) {
             if *given == ContactForce::default() {
                 continue;
             }
             let [slot, wall] = joint.bodies;
             let cavity = joint.cavity as usize;
             let room = &self.world.rooms[cavity];
-            let container = &containers[cavity];
-            let start = Container {
-                velocity: room.motion.velocity,
-                ..*container
-            };
-            let contact = joint.at_wall(&before(slot), &start);
-            let after = joint.at_wall(&after(slot), container);
+            let yielded = joints.containers[cavity].velocity - room.motion.velocity;
+            let mut before = joint.at_wall(&joints.starts, &joints.containers);
+            before.velocity += yielded;
+            before.velocity_ahead += yielded;
+            let after = joint.at_wall(&joints.movers, &joints.containers);
             observer.contact(&ContactEvent {
                 particle: number(slot),
                 partner: Partner::Wall(wall - room.first_wall),
                 cavity,
-                ..impulse(contact, *given, &after)
+                ..impulse(before, *given, &after)
             });
         }
     }

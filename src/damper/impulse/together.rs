@@ -1,10 +1,13 @@
-//! Impulses of all joints from the same velocities, those at the start of the step.
+//! Impulses that do not wait for each other: what contacts carry over from the step before, and those
+//! of laws that take all contacts at once.
+
+// Small functions of the innermost loop: the compiler must see the loop whole.
+#![allow(clippy::inline_always)]
 
 use glam::DVec3;
 
-use super::joint::{Joint, Joints};
+use super::joint::Joints;
 use crate::cavity::Cavity;
-use crate::contact::{Contact, ContactForce};
 use crate::damper::candidates::Candidates;
 use crate::damper::engine::Engine;
 use crate::damper::scene::World;
@@ -18,140 +21,140 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// of motion relative to the containers, which contacts can but lessen. Returns whether there was
     /// anything to give: what contacts at rest gave in the step before, they are likely to give again.
     pub(super) fn carry_impulses(&mut self, time_step: f64) -> bool {
-        let mut power = 0.0;
-        let mut any = false;
-        self.joints.visit(
-            &self.world,
-            &self.particles.species,
-            |law, kind, contact, joint| {
-                if !joint.remembers {
-                    return ContactForce::default();
-                }
-                let answer = law.carry(kind, contact, &mut joint.memory, 1.0);
-                joint.remembers = answer != ContactForce::default();
-                if !joint.remembers {
-                    joint.memory = L::Memory::default();
-                    return answer;
-                }
-                any = true;
-                let force = contact.normal * answer.normal + answer.tangential;
-                let spin = contact.spins[0] - contact.spins[1];
-                power += force.dot(contact.velocity_ahead) + answer.couple.dot(spin);
-                answer
-            },
-        );
-        if !any {
+        if !self.carry(1.0) {
             return false;
         }
-        self.push_all();
-        let (slope, curvature) = (power * time_step, self.energy_of_blows(time_step));
+        let [slope, curvature] = self.energy_of_blows(time_step);
         if slope + curvature <= 0.0 {
             return true;
         }
-        let part = (-0.5 * slope / curvature).max(0.0);
-        self.start_impulses(time_step);
-        self.joints.visit(
-            &self.world,
-            &self.particles.species,
-            |law, kind, contact, joint| {
-                if joint.remembers {
-                    law.carry(kind, contact, &mut joint.memory, part)
-                } else {
-                    ContactForce::default()
-                }
-            },
-        );
-        self.push_all();
-        true
+        self.start_impulses();
+        self.carry((-0.5 * slope / curvature).max(0.0))
     }
 
-    /// Strikes all contacts, and advances what they remember with the velocities after the impulses.
-    pub(super) fn strike_at_once(&mut self) {
-        let species = &self.particles.species;
-        self.joints
-            .visit(&self.world, species, |law, kind, contact, joint| {
-                law.force(kind, contact, &joint.memory)
-            });
-        self.push_all();
-        if Candidates::<L>::REMEMBERS {
-            let species = &self.particles.species;
-            self.joints
-                .visit(&self.world, species, |law, kind, contact, joint| {
-                    joint.memory = law.advance(kind, contact, &joint.memory);
-                    joint.remembers = true;
-                    ContactForce::default()
-                });
-        }
-    }
-
-    /// Gives all bodies what their joints answered.
-    fn push_all(&mut self) {
-        let joints = &mut self.joints;
-        for (joint, answer) in joints.pairs.iter().zip(&joints.answers) {
-            let (force, first, second) = joint.resolve(answer);
-            let [i, j] = joint.bodies.map(|slot| slot as usize);
-            joints.movers[i].take(force, first);
-            joints.movers[j].take(-force, second);
-        }
-        let pairs = joints.pairs.len();
-        for number in 0..joints.walls.len() {
-            let answer = self.joints.answers[pairs + number];
-            if answer != ContactForce::default() {
+    /// Gives `part` of what contacts carry over, and tells whether there was anything.
+    fn carry(&mut self, part: f64) -> bool {
+        let world = &self.world;
+        let mut any = if world.planar() {
+            self.joints.carry_pairs::<C, true>(world, part)
+        } else {
+            self.joints.carry_pairs::<C, false>(world, part)
+        };
+        for number in 0..self.joints.walls.len() {
+            let joints = &mut self.joints;
+            let joint = &mut joints.walls[number];
+            if !joint.remembers {
+                continue;
+            }
+            let contact = joint.at_wall(&joints.starts, &joints.containers);
+            let species = self.particles.species[joint.bodies[0] as usize];
+            let kind = self.world.coefficients.wall(species);
+            let answer = self
+                .world
+                .law
+                .carry(kind, &contact, &mut joint.memory, part);
+            if joint.goes_on(&answer) {
+                any = true;
                 self.push_wall(number, &answer);
             }
         }
         self.move_containers();
-        let joints = &mut self.joints;
-        if !joints.given.is_empty() {
-            joints.given.copy_from_slice(&joints.answers);
-        }
+        any
     }
 
-    /// Kinetic energy in J of what the impulses so far have added to all velocities.
-    fn energy_of_blows(&self, time_step: f64) -> f64 {
-        let (joints, particles) = (&self.joints, &self.particles);
-        let mut twice = 0.0;
-        for (n, mover) in joints.movers.iter().enumerate() {
-            let gain = mover.velocity - particles.velocity.get(n);
-            let turn = mover.spin - particles.spin.get(n);
-            twice += gain.length_squared() / particles.inverse_mass[n]
-                + turn.length_squared() / particles.inverse_inertia[n];
-        }
+    /// How the kinetic energy in J of what the impulses so far have added to all velocities grows with
+    /// a part of them: in proportion, and with the square. It is that at the end of the step, relative
+    /// to the containers as they would be without impulses.
+    fn energy_of_blows(&self, time_step: f64) -> [f64; 2] {
+        let joints = &self.joints;
+        let (mut slope, mut curvature) = (0.0, 0.0);
         for (room, container) in self.world.rooms.iter().zip(&joints.containers) {
+            let ahead = container.air.ahead - room.motion.velocity;
+            let starts = &joints.starts[room.slots.clone()];
+            for (start, mover) in starts.iter().zip(&joints.movers[room.slots.clone()]) {
+                let (mass, inertia) = (time_step / start.gain, time_step / start.turn);
+                let gain = (mover.velocity - start.velocity) * mass;
+                let turn = (mover.spin - start.spin) * inertia;
+                slope += gain.dot(start.velocity + ahead) + turn.dot(start.spin);
+                curvature += 0.5
+                    * (gain.dot(mover.velocity - start.velocity)
+                        + turn.dot(mover.spin - start.spin));
+            }
             let first = room.first_wall as usize;
             let walls = &self.wall_loads[first..first + room.cavity.walls() as usize];
             let load: DVec3 = walls.iter().map(|wall| wall.force).sum();
-            twice += load.dot(container.velocity - room.motion.velocity) * time_step;
+            let yielded = container.velocity - room.motion.velocity;
+            curvature += 0.5 * load.dot(yielded) * time_step;
         }
-        0.5 * twice
+        [slope, curvature]
+    }
+
+    /// Strikes all contacts, and advances what they remember with the velocities after the impulses.
+    pub(super) fn strike_at_once(&mut self) {
+        self.joints.strike_pairs_at_once(&self.world);
+        for number in 0..self.joints.walls.len() {
+            let joints = &self.joints;
+            let joint = &joints.walls[number];
+            let contact = joint.at_wall(&joints.starts, &joints.containers);
+            let species = self.particles.species[joint.bodies[0] as usize];
+            let kind = self.world.coefficients.wall(species);
+            let answer = self.world.law.force(kind, &contact, &joint.memory);
+            self.push_wall(number, &answer);
+        }
+        self.move_containers();
+        if !Candidates::<L>::REMEMBERS {
+            return;
+        }
+        let (law, coefficients) = (&self.world.law, &self.world.coefficients);
+        let joints = &mut self.joints;
+        for (number, joint) in joints.pairs.iter_mut().enumerate() {
+            let contact = joint.between::<false>(&joints.movers, &joints.containers);
+            let only = coefficients.only_pair();
+            let kind = only.unwrap_or_else(|| &joints.kinds[number]);
+            joint.memory = law.advance(kind, &contact, &joint.memory);
+            joint.remembers = true;
+        }
+        for joint in &mut joints.walls {
+            let contact = joint.at_wall(&joints.movers, &joints.containers);
+            let kind = coefficients.wall(self.particles.species[joint.bodies[0] as usize]);
+            joint.memory = law.advance(kind, &contact, &joint.memory);
+            joint.remembers = true;
+        }
     }
 }
 
 impl<L: ContactLaw> Joints<L> {
-    /// Notes the answer to every joint's contact.
-    fn visit<C>(
+    fn carry_pairs<C: Cavity, const PLANAR: bool>(
         &mut self,
         world: &World<C, L>,
-        species: &[u32],
-        mut answer: impl FnMut(&L, &L::Coefficients, &Contact, &mut Joint<L::Memory>) -> ContactForce,
-    ) {
-        let only = world.coefficients.only_pair();
-        self.answers.clear();
-        for (number, joint) in self.pairs.iter_mut().enumerate() {
-            let contact = joint.between(
-                joint.bodies.map(|slot| &self.movers[slot as usize]),
-                &self.containers[joint.cavity as usize],
-            );
+        part: f64,
+    ) -> bool {
+        let mut any = false;
+        for number in 0..self.pairs.len() {
+            let joint = &mut self.pairs[number];
+            if !joint.remembers {
+                continue;
+            }
+            let contact = joint.between::<PLANAR>(&self.starts, &self.containers);
+            let only = world.coefficients.only_pair();
             let kind = only.unwrap_or_else(|| &self.kinds[number]);
-            self.answers.push(answer(&world.law, kind, &contact, joint));
+            let answer = world.law.carry(kind, &contact, &mut joint.memory, part);
+            if joint.goes_on(&answer) {
+                any = true;
+                self.push_pair::<PLANAR>(number, &answer);
+            }
         }
-        for joint in &mut self.walls {
-            let contact = joint.at_wall(
-                &self.movers[joint.bodies[0] as usize],
-                &self.containers[joint.cavity as usize],
-            );
-            let kind = world.coefficients.wall(species[joint.bodies[0] as usize]);
-            self.answers.push(answer(&world.law, kind, &contact, joint));
+        any
+    }
+
+    fn strike_pairs_at_once<C: Cavity>(&mut self, world: &World<C, L>) {
+        for number in 0..self.pairs.len() {
+            let joint = &self.pairs[number];
+            let contact = joint.between::<false>(&self.starts, &self.containers);
+            let only = world.coefficients.only_pair();
+            let kind = only.unwrap_or_else(|| &self.kinds[number]);
+            let answer = world.law.force(kind, &contact, &joint.memory);
+            self.push_pair::<false>(number, &answer);
         }
     }
 }
