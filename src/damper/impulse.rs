@@ -30,7 +30,7 @@ pub(crate) use joint::Joints;
 const ROUNDS: usize = 16;
 
 /// How often they are gone through if some bear what they bore in the step before.
-const RESTING_ROUNDS: usize = 2;
+const RESTING_ROUNDS: usize = 3;
 
 /// Speed given in a round, as a part of what a particle gains in free fall over the step, that needs no
 /// further round of a bed at rest.

@@ -28,7 +28,7 @@ const LIFT: f64 = 0.1;
 const LIFT_SPEED: f64 = 0.2;
 
 /// Overlap that resting bodies keep, as a part of the smaller radius.
-const KEPT: f64 = 3e-3;
+const KEPT: f64 = 0.03;
 
 /// What [`RestitutionImpulse`](crate::RestitutionImpulse) prepares for two bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
