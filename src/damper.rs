@@ -283,6 +283,7 @@ where
         self.engine.particles.reserved_bytes()
             + self.engine.scratch.reserved_bytes()
             + self.engine.joints.reserved_bytes()
+            + self.engine.memories.sum(block::reserved_by)
             + blocks.sum::<usize>()
     }
 

@@ -1,6 +1,44 @@
 //! Work on long columns and many blocks: on all threads of the current pool with the feature `rayon`,
 //! in turn without it. The results are the same bits.
 
+use std::sync::{Mutex, PoisonError};
+
+/// Scratch that threads borrow: as many pieces of it as work at a time.
+#[derive(Debug)]
+pub(crate) struct Pool<T>(Mutex<Vec<T>>);
+
+impl<T> Pool<T> {
+    /// A pool with one piece.
+    pub(crate) fn new(piece: T) -> Self {
+        Self(Mutex::new(vec![piece]))
+    }
+
+    /// Does `work` with a piece that nobody else has.
+    pub(crate) fn with<R>(&self, work: impl FnOnce(&mut T) -> R) -> R
+    where
+        T: Default,
+    {
+        let pieces = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut piece = pieces().pop().unwrap_or_default();
+        let result = work(&mut piece);
+        pieces().push(piece);
+        result
+    }
+
+    /// The sum of what `measure` tells of the pieces.
+    pub(crate) fn sum(&self, measure: impl Fn(&T) -> usize) -> usize {
+        let pieces = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        pieces.iter().map(measure).sum()
+    }
+}
+
+impl<T: Clone> Clone for Pool<T> {
+    fn clone(&self) -> Self {
+        let pieces = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        Self(Mutex::new(pieces.clone()))
+    }
+}
+
 /// Columns no longer than this are not worth a second thread.
 #[cfg(feature = "rayon")]
 const PIECE: usize = 16_384;

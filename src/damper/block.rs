@@ -62,6 +62,16 @@ pub(crate) struct Listing<'a, C, L: ContactLaw> {
 /// What contacts remember: of pairs, and of walls.
 pub(crate) type Memories<L> = [Vec<Remembered<<L as ContactLaw>::Memory>>; 2];
 
+/// Room for what contacts of a block remember in a bed of `particles`.
+pub(crate) fn memories<M>(particles: usize) -> [Vec<Remembered<M>>; 2] {
+    [(); 2].map(|()| Vec::with_capacity(room_for(particles)))
+}
+
+/// Memory in bytes that `memories` have reserved.
+pub(crate) fn reserved_by<M>(memories: &[Vec<Remembered<M>>; 2]) -> usize {
+    size_of::<Remembered<M>>() * memories.iter().map(Vec::capacity).sum::<usize>()
+}
+
 /// A run of slots with its candidates, its scratch, and what its last evaluation found.
 #[derive(Debug, Clone)]
 pub(crate) struct Block<L: ContactLaw> {
@@ -69,8 +79,6 @@ pub(crate) struct Block<L: ContactLaw> {
     pub(crate) pairs: Candidates<L>,
     pub(crate) border: Candidates<L>,
     pub(crate) walls: Candidates<L>,
-    /// What contacts of pairs and walls remember, while they are listed anew.
-    pub(crate) memory: Memories<L>,
     pub(crate) parcels: Vec<Parcel>,
     pub(crate) loads: Vec<WallLoad>,
     pub(crate) contacts: usize,
@@ -84,13 +92,11 @@ impl<L: ContactLaw> Block<L> {
         let (mut pairs, mut near) = (Candidates::default(), Candidates::default());
         pairs.reserve_all(room_for(slots.len()));
         near.reserve_all(room_for(slots.len()));
-        let memory = [(); 2].map(|()| Vec::with_capacity(room_for(slots.len())));
         Self {
             slots,
             pairs,
             border: Candidates::default(),
             walls: near,
-            memory,
             parcels: Vec::new(),
             loads: vec![WallLoad::default(); walls],
             contacts: 0,
@@ -100,22 +106,31 @@ impl<L: ContactLaw> Block<L> {
         }
     }
 
-    /// Empties the lists, and keeps what their contacts remember of step `stamp`.
-    pub(crate) fn clear(&mut self, stamp: u32) {
-        let mut memory = std::mem::take(&mut self.memory);
-        memory.iter_mut().for_each(Vec::clear);
-        make_room(&mut memory[0], self.pairs.entries() + self.border.entries());
-        make_room(&mut memory[1], self.walls.entries());
-        self.remember(stamp, &mut memory);
-        memory[0].sort_unstable_by_key(Remembered::pair);
-        self.memory = memory;
-        self.empty();
-    }
-
-    fn empty(&mut self) {
+    /// Lists candidates anew, and hands over what contacts remember: what the block's own do, which goes
+    /// by way of `buffer`, unless it is `saved`, in ascending order. `partners` are those in the rows of
+    /// the block's slots.
+    pub(crate) fn relist<C: Cavity>(
+        &mut self,
+        listing: &Listing<'_, C, L>,
+        partners: &mut [u32],
+        saved: Option<&Memories<L>>,
+        buffer: &mut Memories<L>,
+    ) {
+        let memory = if let Some(all) = saved {
+            self.own(all)
+        } else {
+            buffer.iter_mut().for_each(Vec::clear);
+            make_room(&mut buffer[0], self.pairs.entries() + self.border.entries());
+            make_room(&mut buffer[1], self.walls.entries());
+            self.remember(listing.scene.stamp, buffer);
+            buffer[0].sort_unstable_by_key(Remembered::pair);
+            buffer.each_ref().map(Vec::as_slice)
+        };
         self.pairs.clear();
         self.border.clear();
         self.walls.clear();
+        self.list(listing, partners);
+        self.finish(listing.scene.stamp, memory);
     }
 
     /// Adds what the contacts of step `stamp` remember to `memory`.
@@ -126,23 +141,21 @@ impl<L: ContactLaw> Block<L> {
         self.walls.remember(stamp, walls);
     }
 
-    /// Empties the lists, and keeps what `memory` holds of the block's contacts. It is in ascending
-    /// order.
-    pub(crate) fn recall(&mut self, memory: &Memories<L>) {
-        self.empty();
+    /// What `memory`, in ascending order, holds of the block's contacts.
+    fn own<'a>(&self, memory: &'a Memories<L>) -> [&'a [Remembered<L::Memory>]; 2] {
         let slots = [self.slots.start as u32, self.slots.end as u32];
-        let own = |all: &[Remembered<L::Memory>], slot: fn(&Remembered<L::Memory>) -> u32| {
+        let own = |all: &'a [Remembered<L::Memory>], slot: fn(&Remembered<L::Memory>) -> u32| {
             let [start, end] = slots.map(|end| all.partition_point(|own| slot(own) < end));
-            all[start..end].to_vec()
+            &all[start..end]
         };
-        self.memory = [
+        [
             own(&memory[0], |contact| contact.pair().0),
             own(&memory[1], |contact| contact.wall().0),
-        ];
+        ]
     }
 
-    /// Fills the empty lists. `partners` are those in the rows of the block's slots.
-    pub(crate) fn list<C: Cavity>(&mut self, listing: &Listing<'_, C, L>, partners: &mut [u32]) {
+    /// Fills the empty lists.
+    fn list<C: Cavity>(&mut self, listing: &Listing<'_, C, L>, partners: &mut [u32]) {
         let Listing {
             scene,
             reach,
@@ -189,13 +202,11 @@ impl<L: ContactLaw> Block<L> {
         }
     }
 
-    /// Makes finished lists ready for use, but for what the law has to [`prepare`](Self::prepare).
-    pub(crate) fn finish<C: Cavity>(&mut self, scene: &Scene<'_, C, L>) {
-        let [pairs, walls] = &self.memory;
-        self.pairs.finish(scene.stamp, pairs, pair);
-        self.border.finish(scene.stamp, pairs, pair);
-        self.walls
-            .finish(scene.stamp, walls, |slot, wall| (slot, wall));
+    /// Makes filled lists ready for use, but for what the law has to [`prepare`](Self::prepare).
+    fn finish(&mut self, stamp: u32, [pairs, walls]: [&[Remembered<L::Memory>]; 2]) {
+        self.pairs.finish(stamp, pairs, pair);
+        self.border.finish(stamp, pairs, pair);
+        self.walls.finish(stamp, walls, |slot, wall| (slot, wall));
         make_room(&mut self.parcels, self.border.candidates());
     }
 
@@ -402,8 +413,6 @@ impl<L: ContactLaw> Block<L> {
         let lists = [&self.pairs, &self.border, &self.walls];
         lists.map(Candidates::reserved_bytes).iter().sum::<usize>()
             + size_of::<Parcel>() * self.parcels.capacity()
-            + size_of::<Remembered<L::Memory>>()
-                * self.memory.iter().map(Vec::capacity).sum::<usize>()
     }
 }
 

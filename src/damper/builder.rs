@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::block::BLOCK;
+use super::block::{BLOCK, memories};
 use super::clock::Clock;
 use super::coefficients::Coefficients;
 use super::engine::{Engine, MountState, Scratch};
@@ -17,6 +17,7 @@ use crate::integrator::{Integrator, Stage, VelocityVerlet};
 use crate::law::{ContactLaw, Evaluation};
 use crate::material::{MaterialId, Materials};
 use crate::mount::{Driven, Motion, Mount};
+use crate::parallel::Pool;
 use crate::particle::Particle;
 
 /// Overlaps up to this fraction of the smallest radius are taken for contacts of a settled bed.
@@ -225,6 +226,7 @@ where
             gravity: self.gravity,
             blocks: Engine::<C, L, M, D>::make_blocks(particles.len(), walls),
             scratch: Scratch::new(particles.len()),
+            memories: Pool::new(memories(particles.len())),
             joints: Joints::default(),
             particles,
             wall_loads: vec![WallLoad::default(); walls],

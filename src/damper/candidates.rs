@@ -329,7 +329,9 @@ impl<L: ContactLaw> Candidates<L> {
             if let Some(old) = self.entries.get_mut(*entry as usize) {
                 *old = kept;
             } else {
-                *entry = self.entries.len() as u32;
+                let count = self.entries.len();
+                *entry = count as u32;
+                make_room(&mut self.entries, count + 1);
                 self.entries.push(kept);
             }
         }

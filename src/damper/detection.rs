@@ -21,7 +21,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 .iter()
                 .any(|detector| detector.skin(1.0) == 0.0);
         if skinless || !self.scratch.listed || !self.narrow() {
-            self.detect()?;
+            self.list(None)?;
             self.narrow();
         }
         Ok(())
@@ -34,36 +34,15 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         all_blocks(&mut self.blocks, &|block| block.narrow(&scene, &reference))
     }
 
-    /// Broad phase: lists candidates, and hands the memory of contacts over to the new list.
-    fn detect(&mut self) -> Result<(), StepError> {
-        let stamp = self.world.stamp;
-        all_blocks(&mut self.blocks, &|block| {
-            block.clear(stamp);
-            true
-        });
-        self.list()
-    }
-
-    /// Gives contacts the memories that [`remembered`](Self::remembered) saved.
-    pub(crate) fn recall(&mut self, memory: &Memories<L>) -> Result<(), StepError> {
-        for block in &mut self.blocks {
-            block.recall(memory);
-        }
-        self.list()
-    }
-
-    /// Lists candidates in blocks that are empty.
-    fn list(&mut self) -> Result<(), StepError> {
+    /// Broad phase: lists candidates anew. Contacts remember what they did, or what is `saved` by
+    /// [`remembered`](Self::remembered).
+    pub(crate) fn list(&mut self, saved: Option<&Memories<L>>) -> Result<(), StepError> {
         self.scratch.listed = false;
         self.detections += 1;
         self.check_finite()?;
         self.propose()?;
-        self.list_candidates();
+        self.list_candidates(saved);
         let scene = self.world.scene(&self.particles, 0.0);
-        all_blocks(&mut self.blocks, &|block| {
-            block.finish(&scene);
-            true
-        });
         for block in &mut self.blocks {
             block.prepare(&scene)?;
         }
@@ -131,8 +110,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         Ok(())
     }
 
-    /// Fills the blocks' empty lists from the sorted proposals, and with the walls that are near.
-    fn list_candidates(&mut self) {
+    /// Fills the blocks' lists from the sorted proposals, and with the walls that are near.
+    fn list_candidates(&mut self, saved: Option<&Memories<L>>) {
         let listing = Listing {
             scene: &self.world.scene(&self.particles, 0.0),
             reach: self.world.reach,
@@ -147,7 +126,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         };
         let partners = self.scratch.partners.as_mut_slice();
         for_each(&mut self.blocks, partners, &split, &|block, partners| {
-            block.list(&listing, partners);
+            self.memories
+                .with(|buffer| block.relist(&listing, partners, saved, buffer));
             true
         });
     }

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use super::block::{BLOCK, Block, Place, room_for};
+use super::block::{BLOCK, Block, Memories, Place, room_for};
 use super::error::StepError;
 use super::impulse::Joints;
 use super::particles::Particles;
@@ -15,7 +15,7 @@ use crate::integrator::Stage;
 use crate::law::{ContactLaw, Evaluation};
 use crate::mount::{Motion, Mount};
 use crate::observer::Observer;
-use crate::parallel::{for_each, update};
+use crate::parallel::{Pool, for_each, update};
 
 /// Coordinates of the mount, followed by three per cavity whose velocity sums up the impulse on its
 /// container. Integrating them along with the rest makes that impulse exactly the momentum that the
@@ -91,6 +91,8 @@ pub(crate) struct Engine<C, L: ContactLaw, M, D> {
     pub(crate) mount_state: MountState,
     pub(crate) blocks: Vec<Block<L>>,
     pub(crate) scratch: Scratch,
+    /// What contacts of a block remember while they are listed anew.
+    pub(crate) memories: Pool<Memories<L>>,
     /// What the impulses of a step are worked out with; empty under a stiff law.
     pub(crate) joints: Joints<L>,
     /// Loads of the particles on each wall, all cavities in turn.

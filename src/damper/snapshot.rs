@@ -289,7 +289,7 @@ where
         self.clock = snapshot.clock;
         engine.since_sort = snapshot.since_sort;
         engine.time = self.clock.time();
-        engine.recall(&snapshot.memory)?;
+        engine.list(Some(&snapshot.memory))?;
         Ok(())
     }
 }

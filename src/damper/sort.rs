@@ -41,7 +41,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let [pairs, walls] = &mut memory;
         pairs.sort_unstable_by_key(Remembered::pair);
         walls.sort_unstable_by_key(Remembered::wall);
-        self.recall(&memory)
+        self.list(Some(&memory))
     }
 
     /// The slot of the particle that was in `slot` when slots held the particles of `number`.
