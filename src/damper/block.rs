@@ -340,7 +340,7 @@ impl<L: ContactLaw> Block<L> {
         }
         let list = &mut self.walls;
         for run in runs(list.contacts.len()) {
-            answer_walls::<C, L, END>(scene, list, chunk, run.clone());
+            answer_walls::<C, L, END, PLANAR>(scene, list, chunk, run.clone());
             deepest = deepest.max(chunk.largest_overlap());
             for (n, [slot, wall]) in list.contacts.bodies()[run.clone()].iter().enumerate() {
                 let (push, [turn, _]) = (chunk.push(n), chunk.torques(n));
@@ -498,7 +498,7 @@ fn answer_pairs<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
         scene.coefficients.pair(first, second, own)
     });
     let only = scene.coefficients.only_pair();
-    chunk.answer::<true, END>(scene.law, only, kinds, scene.elapsed);
+    chunk.answer::<true, END, PLANAR>(scene.law, only, kinds, scene.elapsed);
     if scene.law.has_edges() {
         let acceleration = |n: usize| acceleration_of_pair(scene, bodies[n]);
         chunk.mend_edges::<true, END>(scene.law, only, scene.moment(), acceleration);
@@ -510,7 +510,7 @@ fn answer_pairs<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
 
 /// Has the law answer a run of touching walls.
 #[inline(always)]
-fn answer_walls<C: Cavity, L: ContactLaw, const END: bool>(
+fn answer_walls<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
     scene: &Scene<'_, C, L>,
     list: &mut Candidates<L>,
     chunk: &mut Chunk<L>,
@@ -524,7 +524,7 @@ fn answer_walls<C: Cavity, L: ContactLaw, const END: bool>(
         *scene.coefficients.wall(species)
     });
     let only = scene.coefficients.only_wall();
-    chunk.answer::<false, END>(scene.law, only, kinds, scene.elapsed);
+    chunk.answer::<false, END, PLANAR>(scene.law, only, kinds, scene.elapsed);
     if scene.law.has_edges() {
         let acceleration = |n: usize| vector(&scene.acceleration, bodies[n][0] as usize);
         chunk.mend_edges::<false, END>(scene.law, only, scene.moment(), acceleration);

@@ -112,6 +112,24 @@ impl Contacts {
     }
 }
 
+/// Sets the entry of a candidate, whose place among all `entries` is `own`.
+#[inline(always)]
+fn keep<M: Copy>(entries: &mut Vec<Entry<M>>, own: &mut u32, touched: u32, memory: &M) {
+    // Each straight to its place: through a temporary it would be copied twice.
+    if let Some(entry) = entries.get_mut(*own as usize) {
+        entry.touched = touched;
+        entry.memory = *memory;
+    } else {
+        let count = entries.len();
+        *own = count as u32;
+        make_room(entries, count + 1);
+        entries.push(Entry {
+            touched,
+            memory: *memory,
+        });
+    }
+}
+
 /// Makes room for `count` entries. A column that has to grow gets an eighth more than that.
 pub(crate) fn make_room<T>(column: &mut Vec<T>, count: usize) {
     if column.capacity() < count {
@@ -317,41 +335,23 @@ impl<L: ContactLaw> Candidates<L> {
         }
     }
 
-    /// Keeps what a contact remembers at the end of step `stamp`.
-    #[inline(always)]
-    pub(crate) fn keep(&mut self, place: u32, stamp: u32, memory: L::Memory) {
-        if Self::REMEMBERS {
-            let kept = Entry {
-                touched: stamp,
-                memory,
-            };
-            let entry = &mut self.entry[place as usize];
-            if let Some(old) = self.entries.get_mut(*entry as usize) {
-                *old = kept;
-            } else {
-                let count = self.entries.len();
-                *entry = count as u32;
-                make_room(&mut self.entries, count + 1);
-                self.entries.push(kept);
-            }
-        }
-    }
-
     /// Keeps what the contacts of a run remember at the end of step `stamp`.
     #[inline(always)]
     pub(crate) fn keep_run(&mut self, run: Range<usize>, stamp: u32, memories: &[L::Memory]) {
         if Self::REMEMBERS {
-            for (number, memory) in run.zip(memories) {
-                self.keep(self.contacts.places[number], stamp, *memory);
+            for (place, memory) in self.contacts.places[run].iter().zip(memories) {
+                let entry = &mut self.entry[*place as usize];
+                keep(&mut self.entries, entry, stamp, memory);
             }
         }
     }
 
     /// Keeps what the contacts remember at the end of step `stamp`, of which `next` tells one by one.
     pub(crate) fn keep_all(&mut self, stamp: u32, mut next: impl FnMut() -> Option<L::Memory>) {
-        for number in 0..self.contacts.len() {
+        for place in self.contacts.places() {
             if let Some(memory) = next() {
-                self.keep(self.contacts.places[number], stamp, memory);
+                let entry = &mut self.entry[*place as usize];
+                keep(&mut self.entries, entry, stamp, &memory);
             }
         }
     }

@@ -10,6 +10,7 @@
 use glam::{DMat3, DVec3};
 
 use super::scene::Scene;
+use super::vectors::{axial, polar};
 use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce, Edge};
 use crate::law::ContactLaw;
@@ -44,6 +45,26 @@ impl Lanes {
     #[inline(always)]
     const fn get(&self, n: usize) -> DVec3 {
         DVec3::new(self.x[n], self.y[n], self.z[n])
+    }
+
+    /// Sets a velocity, force or direction. If `PLANAR`, its z stays zero.
+    #[inline(always)]
+    const fn set_polar<const PLANAR: bool>(&mut self, n: usize, vector: DVec3) {
+        self.x[n] = vector.x;
+        self.y[n] = vector.y;
+        if !PLANAR {
+            self.z[n] = vector.z;
+        }
+    }
+
+    /// Sets a spin or torque. If `PLANAR`, its x and y stay zero.
+    #[inline(always)]
+    const fn set_axial<const PLANAR: bool>(&mut self, n: usize, vector: DVec3) {
+        if PLANAR {
+            self.z[n] = vector.z;
+        } else {
+            self.set(n, vector);
+        }
     }
 }
 
@@ -169,19 +190,28 @@ impl<L: ContactLaw> Chunk<L> {
     /// The contact of a number, `elapsed` seconds after its memory was advanced. Coincident centres
     /// have no normal and feel no force.
     #[inline(always)]
-    pub(crate) fn contact<const PAIRS: bool>(&self, n: usize, elapsed: f64) -> Contact {
+    pub(crate) fn contact<const PAIRS: bool, const PLANAR: bool>(
+        &self,
+        n: usize,
+        elapsed: f64,
+    ) -> Contact {
         let radii = self.radii.each_ref().map(|radii| radii[n]);
-        let spins = self.spins.each_ref().map(|spins| spins.get(n));
-        let towards = self.towards.get(n);
+        let spins = self
+            .spins
+            .each_ref()
+            .map(|spins| axial::<PLANAR>(spins.get(n)));
+        let towards = polar::<PLANAR>(self.towards.get(n));
         let (normal, overlap) = if PAIRS {
             let distance = towards.length();
             let inverse = 1.0 / (distance + f64::MIN_POSITIVE);
-            (towards * inverse, radii[0] + radii[1] - distance)
+            let normal = polar::<PLANAR>(towards * inverse);
+            (normal, radii[0] + radii[1] - distance)
         } else {
             (towards, self.overlap[n])
         };
         let turning = spins[0] * radii[0] + spins[1] * radii[1];
-        let velocity = self.velocity.get(n) - turning.cross(normal);
+        let velocity = polar::<PLANAR>(self.velocity.get(n)) - turning.cross(normal);
+        let velocity = polar::<PLANAR>(velocity);
         Contact {
             normal,
             overlap,
@@ -197,7 +227,7 @@ impl<L: ContactLaw> Chunk<L> {
     /// Has `law` answer the contacts, with the `only` coefficients that there are, or else with those
     /// of each contact in turn. With `END` their memory advances.
     #[inline(always)]
-    pub(crate) fn answer<const PAIRS: bool, const END: bool>(
+    pub(crate) fn answer<const PAIRS: bool, const END: bool, const PLANAR: bool>(
         &mut self,
         law: &L,
         only: Option<&L::Coefficients>,
@@ -206,19 +236,19 @@ impl<L: ContactLaw> Chunk<L> {
     ) {
         if let Some(only) = only {
             if law.has_couple(only) {
-                self.answer_alike::<PAIRS, END, true>(law, only, elapsed);
+                self.answer_alike::<PAIRS, END, PLANAR, true>(law, only, elapsed);
             } else {
-                self.answer_alike::<PAIRS, END, false>(law, only, elapsed);
+                self.answer_alike::<PAIRS, END, PLANAR, false>(law, only, elapsed);
             }
         } else {
             self.kinds.clear();
             self.kinds.extend(kinds);
-            self.answer_mixed::<PAIRS, END>(law, elapsed);
+            self.answer_mixed::<PAIRS, END, PLANAR>(law, elapsed);
         }
     }
 
     #[inline(never)]
-    fn answer_alike<const PAIRS: bool, const END: bool, const COUPLE: bool>(
+    fn answer_alike<const PAIRS: bool, const END: bool, const PLANAR: bool, const COUPLE: bool>(
         &mut self,
         law: &L,
         kind: &L::Coefficients,
@@ -226,27 +256,31 @@ impl<L: ContactLaw> Chunk<L> {
     ) {
         let kind = *kind;
         for n in 0..self.count.min(CHUNK) {
-            self.answer_one::<PAIRS, END, COUPLE>(law, &kind, n, elapsed);
+            self.answer_one::<PAIRS, END, PLANAR, COUPLE>(law, &kind, n, elapsed);
         }
     }
 
     #[inline(never)]
-    fn answer_mixed<const PAIRS: bool, const END: bool>(&mut self, law: &L, elapsed: f64) {
+    fn answer_mixed<const PAIRS: bool, const END: bool, const PLANAR: bool>(
+        &mut self,
+        law: &L,
+        elapsed: f64,
+    ) {
         for n in 0..self.kinds.len().min(CHUNK) {
             let kind = self.kinds[n];
-            self.answer_one::<PAIRS, END, true>(law, &kind, n, elapsed);
+            self.answer_one::<PAIRS, END, PLANAR, true>(law, &kind, n, elapsed);
         }
     }
 
     #[inline(always)]
-    fn answer_one<const PAIRS: bool, const END: bool, const COUPLE: bool>(
+    fn answer_one<const PAIRS: bool, const END: bool, const PLANAR: bool, const COUPLE: bool>(
         &mut self,
         law: &L,
         kind: &L::Coefficients,
         n: usize,
         elapsed: f64,
     ) {
-        let contact = self.contact::<PAIRS>(n, elapsed);
+        let contact = self.contact::<PAIRS, PLANAR>(n, elapsed);
         let memory = self.memory[n];
         let answer = law.force(kind, &contact, &memory);
         if END {
@@ -254,22 +288,27 @@ impl<L: ContactLaw> Chunk<L> {
         }
         self.overlap[n] = contact.overlap;
         self.approach[n] = contact.approach_speed();
-        self.note::<COUPLE>(n, contact.normal, &answer);
+        self.note::<PLANAR, COUPLE>(n, contact.normal, &answer);
     }
 
     /// Notes what an answer does to the two bodies.
     #[inline(always)]
-    fn note<const COUPLE: bool>(&mut self, n: usize, normal: DVec3, answer: &ContactForce) {
-        self.push.set(n, normal * answer.normal + answer.tangential);
+    fn note<const PLANAR: bool, const COUPLE: bool>(
+        &mut self,
+        n: usize,
+        normal: DVec3,
+        answer: &ContactForce,
+    ) {
+        let push = normal * answer.normal + answer.tangential;
+        self.push.set_polar::<PLANAR>(n, push);
         let turn = answer.tangential.cross(normal);
-        let [first, second] = self.radii.each_ref().map(|radii| turn * radii[n]);
+        let [mut first, mut second] = self.radii.each_ref().map(|radii| turn * radii[n]);
         if COUPLE {
-            self.torques[0].set(n, first + answer.couple);
-            self.torques[1].set(n, second - answer.couple);
-        } else {
-            self.torques[0].set(n, first);
-            self.torques[1].set(n, second);
+            first += answer.couple;
+            second -= answer.couple;
         }
+        self.torques[0].set_axial::<PLANAR>(n, first);
+        self.torques[1].set_axial::<PLANAR>(n, second);
     }
 
     /// Has `law` answer once more where bodies may have met or may part within the step.
@@ -287,7 +326,7 @@ impl<L: ContactLaw> Chunk<L> {
                 let kind = only.copied().unwrap_or_else(|| self.kinds[n]);
                 let (contact, answer, memory) =
                     self.ask::<PAIRS>(law, &kind, n, moment, acceleration(n));
-                self.note::<true>(n, contact.normal, &answer);
+                self.note::<false, true>(n, contact.normal, &answer);
                 if END {
                     self.advanced[n] = memory;
                 }
@@ -306,7 +345,7 @@ impl<L: ContactLaw> Chunk<L> {
         acceleration: DVec3,
     ) -> (Contact, ContactForce, L::Memory) {
         let Moment { elapsed, time_step } = moment;
-        let (contact, memory) = (self.contact::<PAIRS>(n, elapsed), &self.memory[n]);
+        let (contact, memory) = (self.contact::<PAIRS, false>(n, elapsed), &self.memory[n]);
         let (overlap, approach) = (contact.overlap, contact.approach_speed());
         if law.has_edges() && Edge::is_near(overlap, approach, time_step) {
             let edge = Edge::new(time_step, acceleration.dot(contact.normal));

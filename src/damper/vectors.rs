@@ -150,6 +150,23 @@ pub(crate) fn vector(components: &Components<'_>, n: usize) -> DVec3 {
     DVec3::from_array(components.map(|component| component.get(n).copied().unwrap_or(0.0)))
 }
 
+/// A velocity, force or direction. If `PLANAR`, it is in the plane z = 0, and the compiler sees so.
+#[inline(always)]
+pub(crate) const fn polar<const PLANAR: bool>(vector: DVec3) -> DVec3 {
+    let z = if PLANAR { 0.0 } else { vector.z };
+    DVec3::new(vector.x, vector.y, z)
+}
+
+/// A spin or torque. If `PLANAR`, it turns in that plane, and the compiler sees so.
+#[inline(always)]
+pub(crate) const fn axial<const PLANAR: bool>(vector: DVec3) -> DVec3 {
+    if PLANAR {
+        DVec3::new(0.0, 0.0, vector.z)
+    } else {
+        vector
+    }
+}
+
 /// The same parts of all components.
 #[inline(always)]
 pub(crate) fn part<'a>(

@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 use crate::contact::{Contact, ContactForce};
 use crate::damper::candidates::make_room;
 use crate::damper::particles::Particles;
-use crate::damper::vectors::{Vectors, vector};
+use crate::damper::vectors::{Vectors, axial, polar, vector};
 use crate::law::ContactLaw;
 
 /// A particle between impulses.
@@ -36,23 +36,6 @@ impl Mover {
             self.velocity += force * self.gain;
             self.spin += torque * self.turn;
         }
-    }
-}
-
-/// A vector of the plane z = 0, of which the compiler sees that it is one.
-#[inline(always)]
-const fn flat<const PLANAR: bool>(vector: DVec3) -> DVec3 {
-    let z = if PLANAR { 0.0 } else { vector.z };
-    DVec3::new(vector.x, vector.y, z)
-}
-
-/// A spin in that plane.
-#[inline(always)]
-const fn upright<const PLANAR: bool>(spin: DVec3) -> DVec3 {
-    if PLANAR {
-        DVec3::new(0.0, 0.0, spin.z)
-    } else {
-        spin
     }
 }
 
@@ -95,10 +78,10 @@ impl<M> Joint<M> {
         containers: &[Container],
     ) -> Contact {
         let [first, second] = self.bodies.map(|slot| &movers[slot as usize]);
-        let velocity = flat::<PLANAR>(first.velocity) - flat::<PLANAR>(second.velocity);
-        let spins = [first.spin, second.spin].map(upright::<PLANAR>);
+        let velocity = polar::<PLANAR>(first.velocity) - polar::<PLANAR>(second.velocity);
+        let spins = [first.spin, second.spin].map(axial::<PLANAR>);
         let air = &containers[self.cavity as usize].air;
-        self.contact(flat::<PLANAR>(self.normal), velocity, spins, air)
+        self.contact(polar::<PLANAR>(self.normal), velocity, spins, air)
     }
 
     /// The contact of a particle with a wall.
@@ -138,8 +121,8 @@ impl<M> Joint<M> {
         &self,
         answer: &ContactForce,
     ) -> (DVec3, DVec3, DVec3) {
-        let normal = flat::<PLANAR>(self.normal);
-        let tangential = flat::<PLANAR>(answer.tangential);
+        let normal = polar::<PLANAR>(self.normal);
+        let tangential = polar::<PLANAR>(answer.tangential);
         let force = normal * answer.normal + tangential;
         let turn = tangential.cross(normal);
         let first = turn * self.radii[0] + answer.couple;
