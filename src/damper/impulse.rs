@@ -36,6 +36,10 @@ const RESTING_ROUNDS: usize = 3;
 /// further round of a bed at rest.
 const STILL: f64 = 0.02;
 
+/// Speed given in the first round, as a multiple of what a particle gains in free fall over the step, from
+/// which a bed is not taken for one at rest.
+const STIRRED: f64 = 100.0;
+
 /// Way in a step at the speed given in a round, as a fraction of the smallest radius, that needs no
 /// further round.
 const NEGLIGIBLE: f64 = 0.01;
@@ -77,14 +81,15 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
     /// Rounds to and fro, so that an impulse crosses the bed in one step whichever way it goes, until
     /// one makes no notable change.
-    fn strike_in_rounds(&mut self, time_step: f64, resting: bool) {
+    fn strike_in_rounds(&mut self, time_step: f64, mut resting: bool) {
         let negligible = NEGLIGIBLE * smallest_radius(&self.particles.kinds) / time_step;
         let containers = self.joints.containers.iter();
         let fall = containers.map(|container| container.air.fall);
-        let still = STILL * fall.fold(0.0, f64::max);
+        let fall = fall.fold(0.0, f64::max);
         for round in 0..ROUNDS {
             let change = self.strike_in_turn(round.is_multiple_of(2));
-            let settled = !resting || round + 1 >= RESTING_ROUNDS || change < still;
+            resting &= change < STIRRED * fall;
+            let settled = !resting || round + 1 >= RESTING_ROUNDS || change < STILL * fall;
             if change < negligible && settled {
                 break;
             }
