@@ -21,7 +21,6 @@ pub use skin::Skin;
 pub struct Bed<'a> {
     positions: &'a [DVec3],
     radii: &'a [f64],
-    origin: DVec3,
     bounds: [DVec3; 2],
     planar: bool,
     margin: f64,
@@ -38,18 +37,10 @@ impl<'a> Bed<'a> {
         Self {
             positions: &positions[..count],
             radii: &radii[..count],
-            origin: DVec3::ZERO,
             bounds,
             planar: false,
             margin: 0.0,
         }
-    }
-
-    /// The same particles, with `positions` counted from `origin`.
-    #[must_use]
-    pub const fn from_origin(mut self, origin: DVec3) -> Self {
-        self.origin = origin;
-        self
     }
 
     /// The same particles, known to stay in the plane z = 0.
@@ -86,7 +77,7 @@ impl<'a> Bed<'a> {
     #[must_use]
     #[inline]
     pub fn position(&self, number: usize) -> DVec3 {
-        self.positions[number] - self.origin
+        self.positions[number]
     }
 
     /// Radii in m.

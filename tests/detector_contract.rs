@@ -15,7 +15,6 @@ use proptest::test_runner::RngSeed;
 struct Case {
     planar: bool,
     bounds: [DVec3; 2],
-    origin: DVec3,
     radii: Vec<f64>,
     instants: [Vec<DVec3>; 2],
     margin: f64,
@@ -25,7 +24,6 @@ struct Case {
 impl Case {
     fn bed(&self, instant: usize) -> Bed<'_> {
         Bed::new(&self.instants[instant], &self.radii, self.bounds)
-            .from_origin(self.origin)
             .in_plane(self.planar)
             .with_margin(self.margin)
     }
@@ -121,7 +119,6 @@ fn case() -> impl Strategy<Value = Case> {
                 size.z = 0.0;
             }
             let bounds = [shift, shift + size];
-            let origin = DVec3::new(0.0, 0.01 * shift.x, 0.0);
             let radius: f64 = 0.003;
             let radii = particles
                 .iter()
@@ -129,19 +126,12 @@ fn case() -> impl Strategy<Value = Case> {
                 .collect();
             let now: Vec<_> = particles.iter().map(|p| p.0).collect();
             let then: Vec<_> = particles.iter().map(|p| p.1).collect();
-            let fixed = |places: &[_]| {
-                let mut centres = positions(places, bounds, radius, planar);
-                for centre in &mut centres {
-                    *centre += origin;
-                }
-                centres
-            };
+            let centres = |places: &[_]| positions(places, bounds, radius, planar);
             Case {
                 planar,
                 bounds,
-                origin,
                 radii,
-                instants: [fixed(&now), fixed(&then)],
+                instants: [centres(&now), centres(&then)],
                 margin,
                 cells,
             }

@@ -191,8 +191,8 @@ impl LinkedCells {
         for place in self.block(fine.lattice.cells()) {
             let Sphere { centre, radius } = self.spheres[place];
             let reach = (radius + coarse.largest + bed.margin()) * (1.0 + 1e-9);
-            let [left, low, front] = lattice.indices(centre - reach - bed.origin);
-            let [right, high, back] = lattice.indices(centre + reach - bed.origin);
+            let [left, low, front] = lattice.indices(centre - reach);
+            let [right, high, back] = lattice.indices(centre + reach);
             for z in front..=back {
                 for y in low..=high {
                     let row = lattice.row(y, z);

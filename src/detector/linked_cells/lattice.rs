@@ -25,8 +25,6 @@ impl Extent {
                 upper[axis] = upper[axis].max(position[axis]);
             }
         }
-        let mut lower = (DVec3::from_array(lower) - bed.origin).to_array();
-        let mut upper = (DVec3::from_array(upper) - bed.origin).to_array();
         let [bottom, top] = bed.bounds.map(|corner| corner.to_array());
         for axis in 0..3 {
             let inside = [lower[axis].max(bottom[axis]), upper[axis].min(top[axis])];
