@@ -1,7 +1,5 @@
 //! Impulse laws: one evaluation at the start of a step, held over the step.
 
-use glam::DVec3;
-
 use super::Partner;
 use super::block::{Block, Place};
 use super::candidates::Candidates;
@@ -9,7 +7,6 @@ use super::engine::Engine;
 use super::error::StepError;
 use super::scene::WallLoad;
 use super::smallest_radius;
-use super::vectors::vector;
 use crate::cavity::Cavity;
 use crate::contact::ContactForce;
 use crate::detector::Detector;
@@ -22,7 +19,7 @@ mod pass;
 mod report;
 mod together;
 
-use joint::{Air, Container, Joint};
+use joint::{Container, Joint, Surroundings};
 
 pub(crate) use joint::Joints;
 
@@ -84,7 +81,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     fn strike_in_rounds(&mut self, time_step: f64, mut resting: bool) {
         let negligible = NEGLIGIBLE * smallest_radius(&self.particles.kinds) / time_step;
         let containers = self.joints.containers.iter();
-        let fall = containers.map(|container| container.air.fall);
+        let fall = containers.map(|container| container.surroundings.fall);
         let fall = fall.fold(0.0, f64::max);
         for round in 0..ROUNDS {
             let change = self.strike_in_turn(round.is_multiple_of(2));
@@ -119,7 +116,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             joints.containers.push(Container {
                 velocity: room.motion.velocity,
                 origin: room.motion.position,
-                air: Air {
+                surroundings: Surroundings {
                     ahead,
                     fall: ahead.length(),
                     time_step,
@@ -135,70 +132,27 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let pairs = count(|block| block.pairs.contacts.len() + block.border.contacts.len());
         self.joints
             .clear(pairs, count(|block| block.walls.contacts.len()));
-        let particles = &self.particles;
-        let scene = self.world.scene(particles, 0.0);
-        let several = self.world.rooms.len() > 1;
-        let [x, y, z] = scene.position;
-        let joints = &mut self.joints;
+        let scene = self.world.scene(&self.particles, 0.0);
         for block in &mut self.blocks {
             block.forget();
             block.contacts = block.contacts_in_reach();
             let mut deepest = 0.0_f64;
             for list in [&block.pairs, &block.border] {
                 for touch in list.touching() {
-                    let [i, j] = touch.bodies.map(|slot| slot as usize);
-                    let radii = [particles.radius[i], particles.radius[j]];
-                    let mut towards = DVec3::new(x[i] - x[j], y[i] - y[j], 0.0);
-                    if !scene.planar {
-                        towards.z = z[i] - z[j];
-                    }
-                    let distance = towards.length();
-                    let overlap = radii[0] + radii[1] - distance;
+                    let cavity = self.world.cavity_of(touch.bodies[0] as usize);
+                    let overlap = self.joints.add_pair(&scene, list, touch, cavity);
                     deepest = deepest.max(overlap);
-                    let remembered = list.touched(touch.place, scene.stamp);
-                    joints.pairs.push(Joint {
-                        bodies: touch.bodies,
-                        cavity: if several {
-                            self.world.cavity_of(i) as u32
-                        } else {
-                            0
-                        },
-                        remembers: remembered.is_some(),
-                        radii,
-                        // Coincident centres have no normal and feel no force.
-                        normal: towards * (1.0 / (distance + f64::MIN_POSITIVE)),
-                        overlap,
-                        memory: remembered.copied().unwrap_or_default(),
-                    });
-                    if scene.coefficients.only_pair().is_none() {
-                        let kinds = [particles.species[i], particles.species[j]];
-                        let own = list.prepared(touch.place);
-                        let kind = scene.coefficients.pair(kinds[0], kinds[1], own);
-                        joints.kinds.push(kind);
-                    }
                 }
             }
             for touch in block.walls.touching() {
-                let (slot, wall) = (touch.bodies[0] as usize, touch.bodies[1]);
-                let point = scene.wall_point(wall, vector(&scene.position, slot));
-                let radius = particles.radius[slot];
-                let overlap = radius - point.distance;
+                let overlap = self.joints.add_wall(&scene, &block.walls, touch);
                 deepest = deepest.max(overlap);
-                if point.distance < 0.0 {
+                let (slot, wall) = (touch.bodies[0] as usize, touch.bodies[1]);
+                if overlap > scene.radius[slot] {
                     let room = scene.room_of_wall(wall);
                     let partner = Partner::Wall(wall - room.first_wall);
                     block.escaped = Some(Place { slot, partner });
                 }
-                let remembered = block.walls.touched(touch.place, scene.stamp);
-                joints.walls.push(Joint {
-                    bodies: touch.bodies,
-                    cavity: scene.cavity_of_wall(wall) as u32,
-                    remembers: remembered.is_some(),
-                    radii: [radius, 0.0],
-                    normal: point.normal,
-                    overlap,
-                    memory: remembered.copied().unwrap_or_default(),
-                });
             }
             block.largest_overlap = deepest;
         }

@@ -5,9 +5,11 @@
 
 use glam::{DMat3, DVec3};
 
+use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce};
-use crate::damper::candidates::make_room;
+use crate::damper::candidates::{Candidates, Touch, make_room};
 use crate::damper::particles::Particles;
+use crate::damper::scene::Scene;
 use crate::damper::vectors::{Vectors, axial, polar, vector};
 use crate::law::ContactLaw;
 
@@ -80,8 +82,8 @@ impl<M> Joint<M> {
         let [first, second] = self.bodies.map(|slot| &movers[slot as usize]);
         let velocity = polar::<PLANAR>(first.velocity) - polar::<PLANAR>(second.velocity);
         let spins = [first.spin, second.spin].map(axial::<PLANAR>);
-        let air = &containers[self.cavity as usize].air;
-        self.contact(polar::<PLANAR>(self.normal), velocity, spins, air)
+        let surroundings = &containers[self.cavity as usize].surroundings;
+        self.contact(polar::<PLANAR>(self.normal), velocity, spins, surroundings)
     }
 
     /// The contact of a particle with a wall.
@@ -90,17 +92,28 @@ impl<M> Joint<M> {
         let mover = &movers[self.bodies[0] as usize];
         let container = &containers[self.cavity as usize];
         let velocity = mover.velocity - container.velocity;
-        let air = &container.air;
-        let contact = self.contact(self.normal, velocity, [mover.spin, DVec3::ZERO], air);
+        let surroundings = &container.surroundings;
+        let contact = self.contact(
+            self.normal,
+            velocity,
+            [mover.spin, DVec3::ZERO],
+            surroundings,
+        );
         Contact {
-            velocity_ahead: contact.velocity + air.ahead,
-            mobility: air.mobility,
+            velocity_ahead: contact.velocity + surroundings.ahead,
+            mobility: surroundings.mobility,
             ..contact
         }
     }
 
     #[inline(always)]
-    fn contact(&self, normal: DVec3, velocity: DVec3, spins: [DVec3; 2], air: &Air) -> Contact {
+    fn contact(
+        &self,
+        normal: DVec3,
+        velocity: DVec3,
+        spins: [DVec3; 2],
+        surroundings: &Surroundings,
+    ) -> Contact {
         let turning = spins[0] * self.radii[0] + spins[1] * self.radii[1];
         let velocity = velocity - turning.cross(normal);
         Contact {
@@ -108,9 +121,9 @@ impl<M> Joint<M> {
             overlap: self.overlap,
             velocity,
             velocity_ahead: velocity,
-            fall: air.fall,
+            fall: surroundings.fall,
             spins,
-            elapsed: air.time_step,
+            elapsed: surroundings.time_step,
             mobility: DMat3::ZERO,
         }
     }
@@ -133,7 +146,7 @@ impl<M> Joint<M> {
 
 /// What happens to all bodies in a cavity over the step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Air {
+pub(super) struct Surroundings {
     /// Velocity that a free particle gains on the container over the step, m/s.
     pub(super) ahead: DVec3,
     /// As a speed.
@@ -150,7 +163,7 @@ pub(super) struct Container {
     pub(super) velocity: DVec3,
     /// Where it was when impulses were struck.
     pub(super) origin: DVec3,
-    pub(super) air: Air,
+    pub(super) surroundings: Surroundings,
 }
 
 /// All that the impulses of a step are worked out with.
@@ -196,6 +209,66 @@ impl<L: ContactLaw> Joints<L> {
         self.given.clear();
         make_room(&mut self.pairs, pairs);
         make_room(&mut self.walls, walls);
+    }
+
+    /// Adds a pair in reach, and returns its overlap in m.
+    #[inline(always)]
+    pub(super) fn add_pair<C: Cavity>(
+        &mut self,
+        scene: &Scene<'_, C, L>,
+        list: &Candidates<L>,
+        touch: Touch,
+        cavity: usize,
+    ) -> f64 {
+        let [i, j] = touch.bodies.map(|slot| slot as usize);
+        let radii = [scene.radius[i], scene.radius[j]];
+        let [x, y, z] = scene.position;
+        let z = if scene.planar { 0.0 } else { z[i] - z[j] };
+        let towards = DVec3::new(x[i] - x[j], y[i] - y[j], z);
+        let distance = towards.length();
+        let overlap = radii[0] + radii[1] - distance;
+        let remembered = list.touched(touch.place, scene.stamp);
+        self.pairs.push(Joint {
+            bodies: touch.bodies,
+            cavity: cavity as u32,
+            remembers: remembered.is_some(),
+            radii,
+            // Coincident centres have no normal and feel no force.
+            normal: towards * (1.0 / (distance + f64::MIN_POSITIVE)),
+            overlap,
+            memory: remembered.copied().unwrap_or_default(),
+        });
+        if scene.coefficients.only_pair().is_none() {
+            let own = list.prepared(touch.place);
+            let [first, second] = [scene.species[i], scene.species[j]];
+            self.kinds.push(scene.coefficients.pair(first, second, own));
+        }
+        overlap
+    }
+
+    /// Adds a wall in reach of a particle, and returns their overlap in m.
+    #[inline(always)]
+    pub(super) fn add_wall<C: Cavity>(
+        &mut self,
+        scene: &Scene<'_, C, L>,
+        list: &Candidates<L>,
+        touch: Touch,
+    ) -> f64 {
+        let (slot, wall) = (touch.bodies[0] as usize, touch.bodies[1]);
+        let point = scene.wall_point(wall, vector(&scene.position, slot));
+        let radius = scene.radius[slot];
+        let overlap = radius - point.distance;
+        let remembered = list.touched(touch.place, scene.stamp);
+        self.walls.push(Joint {
+            bodies: touch.bodies,
+            cavity: scene.cavity_of_wall(wall) as u32,
+            remembers: remembered.is_some(),
+            radii: [radius, 0.0],
+            normal: point.normal,
+            overlap,
+            memory: remembered.copied().unwrap_or_default(),
+        });
+        overlap
     }
 
     /// Takes over the velocities at the start of the step.

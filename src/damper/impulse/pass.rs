@@ -61,7 +61,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let cavity = joint.cavity as usize;
         joints.movers[slot].take::<false>(force, torque);
         let container = &joints.containers[cavity];
-        let impulse = -force * container.air.time_step;
+        let impulse = -force * container.surroundings.time_step;
         self.mount.strike(cavity, impulse, &mut joints.rates);
         let arm = joint.normal * -joint.radii[0];
         let place = self.particles.position.get(slot) - container.origin + arm;

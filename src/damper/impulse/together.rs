@@ -69,7 +69,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let joints = &self.joints;
         let (mut slope, mut curvature) = (0.0, 0.0);
         for (room, container) in self.world.rooms.iter().zip(&joints.containers) {
-            let ahead = container.air.ahead - room.motion.velocity;
+            let ahead = container.surroundings.ahead - room.motion.velocity;
             let starts = &joints.starts[room.slots.clone()];
             for (start, mover) in starts.iter().zip(&joints.movers[room.slots.clone()]) {
                 let (mass, inertia) = (time_step / start.gain, time_step / start.turn);
