@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::block::{BLOCK, memories};
+use super::block::{BLOCK, memories, room_for};
 use super::clock::Clock;
 use super::coefficients::Coefficients;
 use super::engine::{Engine, MountState, Scratch};
@@ -219,6 +219,10 @@ where
         let reach = self.law.reach(time_step);
         let rooms = self.rooms(smallest);
         let walls = Engine::<C, L, M, D>::wall_count(&rooms);
+        let joints = match self.law.evaluation() {
+            Evaluation::EveryStage => Joints::default(),
+            _ => Joints::with_room(room_for(particles.len())),
+        };
         let mut engine = Engine {
             mount_state: MountState::new(&self.mount, rooms.len()),
             detectors: self.detectors,
@@ -227,7 +231,7 @@ where
             blocks: Engine::<C, L, M, D>::make_blocks(particles.len(), walls),
             scratch: Scratch::new(particles.len()),
             memories: Pool::new(memories(particles.len())),
-            joints: Joints::default(),
+            joints,
             particles,
             wall_loads: vec![WallLoad::default(); walls],
             loads: vec![DVec3::ZERO; rooms.len()],

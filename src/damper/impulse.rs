@@ -20,21 +20,22 @@ mod report;
 mod together;
 
 use joint::{Container, Joint, Surroundings};
+use pass::Round;
 
 pub(crate) use joint::Joints;
 
-/// How often the contacts are gone through at the most.
-const ROUNDS: usize = 16;
+/// How often a contact is struck at the most.
+const ROUNDS: u8 = 16;
 
-/// How often they are gone through if some bear what they bore in the step before.
-const RESTING_ROUNDS: usize = 3;
+/// How often one at rest is.
+const RESTING_ROUNDS: u8 = 3;
 
 /// Speed given in a round, as a part of what a particle gains in free fall over the step, that needs no
-/// further round of a bed at rest.
+/// further round of contacts at rest.
 const STILL: f64 = 0.02;
 
-/// Speed given in the first round, as a multiple of what a particle gains in free fall over the step, from
-/// which a bed is not taken for one at rest.
+/// Speed given in a round, as a multiple of what a particle gains in free fall over the step, from which
+/// a bed is not taken for one at rest.
 const STIRRED: f64 = 100.0;
 
 /// Way in a step at the speed given in a round, as a fraction of the smallest radius, that needs no
@@ -76,18 +77,25 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         self.check_overlaps()
     }
 
-    /// Rounds to and fro, so that an impulse crosses the bed in one step whichever way it goes, until
-    /// one makes no notable change.
+    /// Rounds to and fro, so that an impulse crosses the bed in one step whichever way it goes, among
+    /// the particles that were notably changed, until there are none.
     fn strike_in_rounds(&mut self, time_step: f64, mut resting: bool) {
         let negligible = NEGLIGIBLE * smallest_radius(&self.particles.kinds) / time_step;
+        self.joints.changed.clear();
+        self.joints.changed.resize(self.particles.len(), 0);
         let containers = self.joints.containers.iter();
         let fall = containers.map(|container| container.surroundings.fall);
         let fall = fall.fold(0.0, f64::max);
-        for round in 0..ROUNDS {
-            let change = self.strike_in_turn(round.is_multiple_of(2));
-            resting &= change < STIRRED * fall;
-            let settled = !resting || round + 1 >= RESTING_ROUNDS || change < STILL * fall;
-            if change < negligible && settled {
+        for number in 0..ROUNDS {
+            resting &= number + 1 < RESTING_ROUNDS;
+            let round = Round {
+                number,
+                negligible,
+                resting,
+            };
+            let speed = self.strike_in_turn(&round);
+            resting &= speed < STIRRED * fall;
+            if speed < negligible && !(resting && speed >= STILL * fall) {
                 break;
             }
         }

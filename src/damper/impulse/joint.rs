@@ -177,6 +177,8 @@ pub(crate) struct Joints<L: ContactLaw> {
     pub(super) starts: Vec<Mover>,
     /// The particles after the impulses so far.
     pub(super) movers: Vec<Mover>,
+    /// The round in which each particle was notably changed last, counted from one; zero for none.
+    pub(super) changed: Vec<u8>,
     pub(super) containers: Vec<Container>,
     /// Velocities of the mount's coordinates after the impulses so far.
     pub(super) rates: Vec<f64>,
@@ -193,6 +195,7 @@ impl<L: ContactLaw> Default for Joints<L> {
             kinds: Vec::new(),
             starts: Vec::new(),
             movers: Vec::new(),
+            changed: Vec::new(),
             containers: Vec::new(),
             rates: Vec::new(),
             given: Vec::new(),
@@ -201,6 +204,13 @@ impl<L: ContactLaw> Default for Joints<L> {
 }
 
 impl<L: ContactLaw> Joints<L> {
+    /// Lists with room for so many joints of pairs, and of walls.
+    pub(crate) fn with_room(joints: usize) -> Self {
+        let mut own = Self::default();
+        own.clear(joints, joints);
+        own
+    }
+
     /// Empties the lists, and makes room for as many joints.
     pub(super) fn clear(&mut self, pairs: usize, walls: usize) {
         self.pairs.clear();
@@ -293,6 +303,7 @@ impl<L: ContactLaw> Joints<L> {
         size_of::<Joint<L::Memory>>() * (self.pairs.capacity() + self.walls.capacity())
             + size_of::<L::Coefficients>() * self.kinds.capacity()
             + size_of::<Mover>() * (self.starts.capacity() + self.movers.capacity())
+            + self.changed.capacity()
             + size_of::<ContactForce>() * self.given.capacity()
     }
 }

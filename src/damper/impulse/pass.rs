@@ -4,6 +4,7 @@
 #![allow(clippy::inline_always)]
 
 use super::joint::Joints;
+use super::{STILL, STIRRED};
 use crate::cavity::Cavity;
 use crate::contact::ContactForce;
 use crate::damper::engine::Engine;
@@ -18,24 +19,45 @@ const fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
+/// A round through the joints.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Round {
+    /// Counted from zero.
+    pub(super) number: u8,
+    /// Speed in m/s that needs no further round if it is given.
+    pub(super) negligible: f64,
+    /// Whether contacts at rest get a further round.
+    pub(super) resting: bool,
+}
+
+impl Round {
+    /// Whether it asks for a further round that `speed` (m/s) was given, where a free particle gains
+    /// `fall` (m/s) over the step.
+    #[inline(always)]
+    pub(super) fn notes(&self, speed: f64, fall: f64) -> bool {
+        let at_rest = STILL * fall <= speed && speed < STIRRED * fall;
+        speed >= self.negligible || self.resting && at_rest
+    }
+}
+
 impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
-    /// Strikes all pairs, then all walls, each with the velocities that those before it left. Returns
-    /// the largest speed in m/s along the normal that particles were given relative to each other, or
-    /// to a wall.
-    pub(super) fn strike_in_turn(&mut self, ascending: bool) -> f64 {
+    /// Strikes pairs of which a particle was notably changed since the round before began, to and fro,
+    /// then all walls, each with the velocities that those before it left. Returns the largest speed in
+    /// m/s along the normal that particles were given relative to each other, or to a wall.
+    pub(super) fn strike_in_turn(&mut self, round: &Round) -> f64 {
         let world = &self.world;
-        let mut change = if world.planar() {
-            self.joints.strike_pairs::<C, true>(world, ascending)
+        let mut largest = if world.planar() {
+            self.joints.strike_pairs::<C, true>(world, round)
         } else {
-            self.joints.strike_pairs::<C, false>(world, ascending)
+            self.joints.strike_pairs::<C, false>(world, round)
         };
         for number in 0..self.joints.walls.len() {
-            change = larger(change, self.strike_wall(number));
+            largest = larger(largest, self.strike_wall(number, round));
         }
-        change
+        largest
     }
 
-    fn strike_wall(&mut self, number: usize) -> f64 {
+    fn strike_wall(&mut self, number: usize, round: &Round) -> f64 {
         let joints = &mut self.joints;
         let joint = &mut joints.walls[number];
         let contact = joint.at_wall(&joints.movers, &joints.containers);
@@ -46,10 +68,14 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             return 0.0;
         }
         joint.remembers = true;
-        let gain = joints.movers[slot].gain;
         self.push_wall(number, &answer);
         self.move_containers();
-        answer.normal.abs() * gain
+        let joints = &mut self.joints;
+        let speed = answer.normal.abs() * joints.movers[slot].gain;
+        if round.notes(speed, contact.fall) {
+            joints.changed[slot] = round.number + 1;
+        }
+        speed
     }
 
     /// Gives a particle and a wall what their joint answers.
@@ -90,15 +116,24 @@ impl<L: ContactLaw> Joints<L> {
     fn strike_pairs<C: Cavity, const PLANAR: bool>(
         &mut self,
         world: &World<C, L>,
-        ascending: bool,
+        round: &Round,
     ) -> f64 {
-        let mut change = 0.0;
+        let mut largest = 0.0;
         let count = self.pairs.len();
         for turn in 0..count {
-            let number = if ascending { turn } else { count - 1 - turn };
-            change = larger(change, self.strike_pair::<C, PLANAR>(world, number));
+            let number = if round.number.is_multiple_of(2) {
+                turn
+            } else {
+                count - 1 - turn
+            };
+            let changed = |slot: u32| self.changed[slot as usize] >= round.number;
+            let [first, second] = self.pairs[number].bodies.map(changed);
+            if first || second {
+                let speed = self.strike_pair::<C, PLANAR>(world, number, round);
+                largest = larger(largest, speed);
+            }
         }
-        change
+        largest
     }
 
     #[inline(always)]
@@ -106,6 +141,7 @@ impl<L: ContactLaw> Joints<L> {
         &mut self,
         world: &World<C, L>,
         number: usize,
+        round: &Round,
     ) -> f64 {
         let joint = &mut self.pairs[number];
         let contact = joint.between::<PLANAR>(&self.movers, &self.containers);
@@ -116,8 +152,15 @@ impl<L: ContactLaw> Joints<L> {
             return 0.0;
         }
         joint.remembers = true;
+        let bodies = joint.bodies;
         let gain = self.push_pair::<PLANAR>(number, &answer);
-        answer.normal.abs() * gain
+        let speed = answer.normal.abs() * gain;
+        if round.notes(speed, contact.fall) {
+            for slot in bodies {
+                self.changed[slot as usize] = round.number + 1;
+            }
+        }
+        speed
     }
 
     /// Gives two particles what their joint answers. Returns what relative velocity a force in N along
