@@ -4,25 +4,21 @@
 //! which forces are summed: the contacts within a block, those of its particles with later blocks,
 //! its walls, and at last what earlier blocks send over.
 
-// Small functions of the innermost loop: the compiler must see the loop whole.
-#![allow(clippy::inline_always)]
-
 use std::ops::Range;
 
 use glam::DVec3;
 
 use super::Partner;
-use super::candidates::{Candidates, Remembered, make_room, pair};
-use super::chunk::{CHUNK, Chunk};
+use super::candidates::{Candidates, Remembered};
+use super::chunk::Chunk;
 use super::scene::{Scene, WallLoad};
 use super::vectors::{Components, part, vector};
 use crate::cavity::Cavity;
-use crate::law::{ContactLaw, LawError};
-use crate::observer::Observer;
+use crate::law::ContactLaw;
 
+mod evaluate;
+mod list;
 mod report;
-
-use report::{report_pairs, report_walls};
 
 /// How many slots make a block: its columns fit into a second-level cache.
 pub(crate) const BLOCK: usize = 4096;
@@ -106,118 +102,6 @@ impl<L: ContactLaw> Block<L> {
         }
     }
 
-    /// Lists candidates anew, and hands over what contacts remember: what the block's own do, which goes
-    /// by way of `buffer`, unless it is `saved`, in ascending order. `partners` are those in the rows of
-    /// the block's slots.
-    pub(crate) fn relist<C: Cavity>(
-        &mut self,
-        listing: &Listing<'_, C, L>,
-        partners: &mut [u32],
-        saved: Option<&Memories<L>>,
-        buffer: &mut Memories<L>,
-    ) {
-        let memory = if let Some(all) = saved {
-            self.own(all)
-        } else {
-            buffer.iter_mut().for_each(Vec::clear);
-            make_room(&mut buffer[0], self.pairs.entries() + self.border.entries());
-            make_room(&mut buffer[1], self.walls.entries());
-            self.remember(listing.scene.stamp, buffer);
-            buffer[0].sort_unstable_by_key(Remembered::pair);
-            buffer.each_ref().map(Vec::as_slice)
-        };
-        self.pairs.clear();
-        self.border.clear();
-        self.walls.clear();
-        self.list(listing, partners);
-        self.finish(listing.scene.stamp, memory);
-    }
-
-    /// Adds what the contacts of step `stamp` remember to `memory`.
-    pub(crate) fn remember(&self, stamp: u32, memory: &mut Memories<L>) {
-        let [pairs, walls] = memory;
-        self.pairs.remember(stamp, pairs);
-        self.border.remember(stamp, pairs);
-        self.walls.remember(stamp, walls);
-    }
-
-    /// What `memory`, in ascending order, holds of the block's contacts.
-    fn own<'a>(&self, memory: &'a Memories<L>) -> [&'a [Remembered<L::Memory>]; 2] {
-        let slots = [self.slots.start as u32, self.slots.end as u32];
-        let own = |all: &'a [Remembered<L::Memory>], slot: fn(&Remembered<L::Memory>) -> u32| {
-            let [start, end] = slots.map(|end| all.partition_point(|own| slot(own) < end));
-            &all[start..end]
-        };
-        [
-            own(&memory[0], |contact| contact.pair().0),
-            own(&memory[1], |contact| contact.wall().0),
-        ]
-    }
-
-    /// Fills the empty lists.
-    fn list<C: Cavity>(&mut self, listing: &Listing<'_, C, L>, partners: &mut [u32]) {
-        let Listing {
-            scene,
-            reach,
-            rows,
-            local,
-        } = *listing;
-        let begin = rows[self.slots.start];
-        let beyond = |partner: &&u32| **partner as usize >= self.slots.end;
-        let border = partners.iter().filter(beyond).count();
-        self.border.reserve(border);
-        self.pairs.reserve(partners.len() - border);
-        for slot in self.slots.clone() {
-            let row = (rows[slot] - begin) as usize..(rows[slot + 1] - begin) as usize;
-            let partners = &mut partners[row];
-            partners.sort_unstable();
-            let mut last = None;
-            let each_once = |partner: &u32| last.replace(*partner) != Some(*partner);
-            for partner in partners.iter().copied().filter(each_once) {
-                let other = partner as usize;
-                let reach = scene.radius[slot] + scene.radius[other] + reach;
-                let list = if other < self.slots.end {
-                    &mut self.pairs
-                } else {
-                    &mut self.border
-                };
-                // The one with the lower number comes first, wherever it stands.
-                if scene.number[slot] < scene.number[other] {
-                    list.push(slot as u32, partner, reach * reach);
-                } else {
-                    list.push(partner, slot as u32, reach * reach);
-                }
-            }
-        }
-        for room in scene.rooms {
-            for slot in room.slots_in(&self.slots) {
-                let reach = scene.radius[slot] + reach;
-                for wall in 0..room.cavity.walls() {
-                    let point = room.cavity.wall(wall, local[slot]);
-                    if point.distance < reach + room.margin {
-                        self.walls.push(slot as u32, room.first_wall + wall, reach);
-                    }
-                }
-            }
-        }
-    }
-
-    /// Makes filled lists ready for use, but for what the law has to [`prepare`](Self::prepare).
-    fn finish(&mut self, stamp: u32, [pairs, walls]: [&[Remembered<L::Memory>]; 2]) {
-        self.pairs.finish(stamp, pairs, pair);
-        self.border.finish(stamp, pairs, pair);
-        self.walls.finish(stamp, walls, |slot, wall| (slot, wall));
-        make_room(&mut self.parcels, self.border.candidates());
-    }
-
-    /// Asks the law for the pairs of finished lists.
-    pub(crate) fn prepare<C: Cavity>(&mut self, scene: &Scene<'_, C, L>) -> Result<(), LawError> {
-        for list in [&mut self.pairs, &mut self.border] {
-            list.prepare(scene.law, scene.coefficients, scene.species)?;
-        }
-        Ok(())
-    }
-
     /// Narrow phase: lists the pairs that touch. Returns whether the candidates can be trusted, which
     /// they can while no particle has moved by half the margin from its `reference`.
     pub(crate) fn narrow<C: Cavity>(
@@ -261,104 +145,6 @@ impl<L: ContactLaw> Block<L> {
         self.contacts = 0;
         self.largest_overlap = 0.0;
         self.escaped = None;
-    }
-
-    /// Evaluates all contacts of the block. `force` and `torque` are those of its own slots.
-    /// With `END`, contacts advance their memory to step `scene.stamp + 1`.
-    pub(crate) fn evaluate<C: Cavity, O: Observer, const END: bool>(
-        &mut self,
-        scene: &Scene<'_, C, L>,
-        mut force: [&mut [f64]; 3],
-        mut torque: [&mut [f64]; 3],
-        observer: &mut O,
-    ) {
-        for component in &mut force {
-            component.fill(0.0);
-        }
-        for component in &mut torque {
-            component.fill(0.0);
-        }
-        self.loads.fill(WallLoad::default());
-        self.parcels.clear();
-        self.forget();
-        self.contacts = self.contacts_in_reach();
-        if scene.planar {
-            let sums = Sums::<true>::new(force, torque);
-            self.evaluate_lists::<C, O, END, true>(scene, sums, observer);
-        } else {
-            let sums = Sums::<false>::new(force, torque);
-            self.evaluate_lists::<C, O, END, false>(scene, sums, observer);
-        }
-    }
-
-    fn evaluate_lists<C: Cavity, O: Observer, const END: bool, const PLANAR: bool>(
-        &mut self,
-        scene: &Scene<'_, C, L>,
-        mut sums: Sums<'_, PLANAR>,
-        observer: &mut O,
-    ) {
-        let base = self.slots.start;
-        let chunk = &mut *self.chunk;
-        let mut deepest = 0.0_f64;
-        let list = &mut self.pairs;
-        for run in runs(list.contacts.len()) {
-            answer_pairs::<C, L, END, PLANAR>(scene, list, chunk, run.clone());
-            deepest = deepest.max(chunk.largest_overlap());
-            let bodies = &list.contacts.bodies()[run.clone()];
-            for (n, [i, j]) in bodies.iter().take(CHUNK).enumerate() {
-                let (i, j) = (*i as usize - base, *j as usize - base);
-                let (push, [first, second]) = (chunk.push(n), chunk.torques(n));
-                sums.add(i, push, first);
-                sums.add(j, -push, second);
-            }
-            if END && observer.wants_contacts() {
-                report_pairs(scene, list, chunk, run, observer);
-            }
-        }
-        let list = &mut self.border;
-        for run in runs(list.contacts.len()) {
-            answer_pairs::<C, L, END, PLANAR>(scene, list, chunk, run.clone());
-            deepest = deepest.max(chunk.largest_overlap());
-            for (n, [i, j]) in list.contacts.bodies()[run.clone()].iter().enumerate() {
-                let (push, [first, second]) = (chunk.push(n), chunk.torques(n));
-                let both = [(*i, push, first), (*j, -push, second)];
-                for (slot, force, torque) in both {
-                    if self.slots.contains(&(slot as usize)) {
-                        sums.add(slot as usize - base, force, torque);
-                    } else {
-                        self.parcels.push(Parcel {
-                            slot,
-                            force,
-                            torque,
-                        });
-                    }
-                }
-            }
-            if END && observer.wants_contacts() {
-                report_pairs(scene, list, chunk, run, observer);
-            }
-        }
-        let list = &mut self.walls;
-        for run in runs(list.contacts.len()) {
-            answer_walls::<C, L, END, PLANAR>(scene, list, chunk, run.clone());
-            deepest = deepest.max(chunk.largest_overlap());
-            for (n, [slot, wall]) in list.contacts.bodies()[run.clone()].iter().enumerate() {
-                let (push, [turn, _]) = (chunk.push(n), chunk.torques(n));
-                let slot = *slot as usize;
-                sums.add(slot - base, push, turn);
-                let room = scene.room_of_wall(*wall);
-                let place = vector(&scene.position, slot) - room.motion.position;
-                self.loads[*wall as usize].react(push, turn, place);
-                if chunk.overlap(n) > scene.radius[slot] {
-                    let partner = Partner::Wall(wall - room.first_wall);
-                    self.escaped = Some(Place { slot, partner });
-                }
-            }
-            if END && observer.wants_contacts() {
-                report_walls(scene, list, chunk, run, observer);
-            }
-        }
-        self.largest_overlap = deepest;
     }
 
     /// How many contacts are within the law's reach.
@@ -416,38 +202,6 @@ impl<L: ContactLaw> Block<L> {
     }
 }
 
-/// Where the forces and torques on the particles of a block are summed up. With `PLANAR` forces have
-/// no z, and torques nothing else.
-struct Sums<'a, const PLANAR: bool> {
-    force: [&'a mut [f64]; 3],
-    torque: [&'a mut [f64]; 3],
-}
-
-impl<'a, const PLANAR: bool> Sums<'a, PLANAR> {
-    fn new(force: [&'a mut [f64]; 3], torque: [&'a mut [f64]; 3]) -> Self {
-        // Columns of one length, so that one comparison stands for all their bounds.
-        let count = force[0].len();
-        let even = |column: &'a mut [f64], used: bool| &mut column[..if used { count } else { 0 }];
-        let [x, y, z] = force;
-        let force = [even(x, true), even(y, true), even(z, !PLANAR)];
-        let [x, y, z] = torque;
-        let torque = [even(x, !PLANAR), even(y, !PLANAR), even(z, true)];
-        Self { force, torque }
-    }
-
-    #[inline(always)]
-    fn add(&mut self, n: usize, force: DVec3, torque: DVec3) {
-        self.force[0][n] += force.x;
-        self.force[1][n] += force.y;
-        self.torque[2][n] += torque.z;
-        if !PLANAR {
-            self.force[2][n] += force.z;
-            self.torque[0][n] += torque.x;
-            self.torque[1][n] += torque.y;
-        }
-    }
-}
-
 /// Whether all points `now` are nearer to those `then`, seen from `origin`, than the root of `limit`.
 fn within(now: Components<'_>, then: Components<'_>, origin: DVec3, limit: f64) -> bool {
     let [x, y, z] = now;
@@ -471,75 +225,4 @@ fn within(now: Components<'_>, then: Components<'_>, origin: DVec3, limit: f64) 
         }
     }
     within
-}
-
-/// Runs of at most [`CHUNK`] contacts, one after the other.
-fn runs(contacts: usize) -> impl Iterator<Item = Range<usize>> {
-    let starts = (0..contacts).step_by(CHUNK);
-    starts.map(move |start| start..contacts.min(start + CHUNK))
-}
-
-/// Has the law answer a run of touching pairs.
-#[inline(always)]
-fn answer_pairs<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
-    scene: &Scene<'_, C, L>,
-    list: &mut Candidates<L>,
-    chunk: &mut Chunk<L>,
-    run: Range<usize>,
-) {
-    let bodies = &list.contacts.bodies()[run.clone()];
-    let places = &list.contacts.places()[run.clone()];
-    chunk.gather_pairs::<C, PLANAR>(scene, bodies);
-    list.recall(run.clone(), scene.stamp, chunk.memory_mut());
-    let kinds = bodies.iter().zip(places).map(|([i, j], place)| {
-        let first = scene.species[*i as usize];
-        let second = scene.species[*j as usize];
-        let own = list.prepared(*place);
-        scene.coefficients.pair(first, second, own)
-    });
-    let only = scene.coefficients.only_pair();
-    chunk.answer::<true, END, PLANAR>(scene.law, only, kinds, scene.elapsed);
-    if scene.law.has_edges() {
-        let acceleration = |n: usize| acceleration_of_pair(scene, bodies[n]);
-        chunk.mend_edges::<true, END>(scene.law, only, scene.moment(), acceleration);
-    }
-    if END {
-        list.keep_run(run, scene.stamp.wrapping_add(1), chunk.advanced());
-    }
-}
-
-/// Has the law answer a run of touching walls.
-#[inline(always)]
-fn answer_walls<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
-    scene: &Scene<'_, C, L>,
-    list: &mut Candidates<L>,
-    chunk: &mut Chunk<L>,
-    run: Range<usize>,
-) {
-    let bodies = &list.contacts.bodies()[run.clone()];
-    chunk.gather_walls::<C>(scene, bodies);
-    list.recall(run.clone(), scene.stamp, chunk.memory_mut());
-    let kinds = bodies.iter().map(|[slot, _]| {
-        let species = scene.species[*slot as usize];
-        *scene.coefficients.wall(species)
-    });
-    let only = scene.coefficients.only_wall();
-    chunk.answer::<false, END, PLANAR>(scene.law, only, kinds, scene.elapsed);
-    if scene.law.has_edges() {
-        let acceleration = |n: usize| vector(&scene.acceleration, bodies[n][0] as usize);
-        chunk.mend_edges::<false, END>(scene.law, only, scene.moment(), acceleration);
-    }
-    if END {
-        list.keep_run(run, scene.stamp.wrapping_add(1), chunk.advanced());
-    }
-}
-
-/// How the centre of the first body was accelerated relative to that of the second when forces were
-/// evaluated last, in m/s^2.
-fn acceleration_of_pair<C: Cavity, L: ContactLaw>(
-    scene: &Scene<'_, C, L>,
-    bodies: [u32; 2],
-) -> DVec3 {
-    let [first, second] = bodies.map(|slot| vector(&scene.acceleration, slot as usize));
-    first - second
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::acceleration_of_pair;
+use super::evaluate::acceleration_of_pair;
 use crate::cavity::Cavity;
 use crate::damper::Partner;
 use crate::damper::candidates::{Candidates, Touch};
