@@ -4,7 +4,8 @@
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::{
     AllPairs, BuildError, Builder, Cuboid, Damper, Driven, EnergyLedger, Filling, Interaction,
-    Material, Motion, Mount, Particle, Prescribed, RestitutionImpulse, SingleDof, VelocityVerlet,
+    Material, Motion, Mount, Particle, Prescribed, RestitutionImpulse, SingleDof, Slot,
+    VelocityVerlet,
 };
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -258,4 +259,28 @@ proptest! {
         let residual = by_itself.residual() / by_itself.opening().total();
         prop_assert!(residual.abs() < 1e-11, "free: {residual:e}");
     }
+}
+
+/// Fifteen layers and more, as wide as the slot to the last grain: there is no room to push overlaps to.
+#[test]
+fn a_deep_pile_without_room_comes_to_rest() {
+    let grain = Particle::new(3e-3, 0.2e-3).unwrap();
+    let filling = Filling::new(1).with(150, grain);
+    let law = RestitutionImpulse::new(Material::acrylic());
+    let mut damper = Damper::builder(Slot::paper(), law)
+        .particles(filling.fill(&Slot::paper()).unwrap())
+        .time_step(1e-4)
+        .build()
+        .unwrap();
+    let mut run = |seconds: f64| -> Vec<DVec3> {
+        for _ in 0..(seconds / 1e-4) as u32 {
+            damper.step().unwrap();
+        }
+        damper.particles().map(|grain| grain.position).collect()
+    };
+    let (before, after) = (run(6.0), run(1.0));
+    let moved = before.iter().zip(&after).map(|(a, b)| a.distance(*b));
+    let drift = moved.fold(0.0, f64::max) / grain.radius;
+    assert!(drift < 1e-6, "{drift:e} radii");
+    assert!(damper.largest_overlap() < 0.05 * grain.radius);
 }
