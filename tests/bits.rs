@@ -455,5 +455,5 @@ const GOLDEN: [&str; 4] = [
     "851c6e4c5a83eeb2",
     "c10a6a9632742893",
     "6e8f0a9643aa2c4a",
-    "4a82f6ddb645b13e",
+    "beae1e08db378616",
 ];

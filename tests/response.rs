@@ -9,7 +9,7 @@ use std::sync::Mutex;
 
 use particle_damper::response::{Point, Response, ResponseError};
 use particle_damper::{
-    AllPairs, CellGrid, ContactLaw, HertzTsuji, Integrator, Material, ResponseCurve,
+    AllPairs, CellGrid, ContactLaw, Damping, HertzTsuji, Integrator, Material, ResponseCurve,
     RestitutionImpulse, RungeKutta4, StepError,
 };
 
@@ -252,9 +252,13 @@ fn what_cannot_be_measured_is_refused_with_its_point() {
     assert!(counted.unwrap()[0].outside > 0);
 }
 
+/// The strict law is given damping that rebounds alike at all speeds, as the approximate law does: with the
+/// paper's, slow impacts rebound more, and 20 particles at 6.25 Hz respond by 4 % more.
 #[test]
 #[ignore = "takes minutes"]
 fn every_point_of_the_papers_figure_11() {
+    let tsuji = HertzTsuji::new(Material::acrylic()).damping(Damping::Tsuji);
+    let strict = ResponseCurve::new(tsuji).time_step(2e-5);
     let frequencies: Vec<f64> = (16..=32).map(|quarter| f64::from(quarter) / 4.0).collect();
     for particles in [20, 40, 60] {
         let mut peaks = [(0.0, 0.0); 2];
@@ -267,7 +271,7 @@ fn every_point_of_the_papers_figure_11() {
                         seed,
                         frequency,
                     };
-                    strict()
+                    strict
                         .measure(point, |_| ControlFlow::Continue(()))
                         .unwrap()
                         .rms_zero
@@ -276,7 +280,7 @@ fn every_point_of_the_papers_figure_11() {
             let low = reference.iter().copied().fold(f64::INFINITY, f64::min);
             let high = reference.iter().copied().fold(0.0, f64::max);
             let response = measure(&approximate(), particles, frequency);
-            let near = (response.rms_zero / reference[0] - 1.0).abs() < 0.04;
+            let near = (response.rms_zero / reference[0] - 1.0).abs() < 0.02;
             assert!(
                 near || (low..=high).contains(&response.rms_zero),
                 "{}: {}, not {reference:?}",

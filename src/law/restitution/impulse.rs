@@ -238,8 +238,9 @@ impl RestitutionCoefficients {
             held.couple *= part;
             return held.force();
         }
-        // What stands farther off than a step of free fall explains is not at rest.
-        if contact.overlap < -self.early(contact) * REST * contact.fall {
+        // What parts faster, or stands farther off, than a step of free fall explains is not at rest.
+        let bound = REST * contact.fall;
+        if contact.approach_speed() < -bound || contact.overlap < -self.early(contact) * bound {
             return ContactForce::default();
         }
         let weight = contact.fall / contact.elapsed;
