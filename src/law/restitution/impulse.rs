@@ -238,9 +238,10 @@ impl RestitutionCoefficients {
             held.couple *= part;
             return held.force();
         }
-        // What parts faster, or stands farther off, than a step of free fall explains is not at rest.
-        let bound = REST * contact.fall;
-        if contact.approach_speed() < -bound || contact.overlap < -self.early(contact) * bound {
+        // What parts faster than it may approach at rest, or stands farther off than a step of free fall
+        // explains, is not at rest.
+        let gap = self.early(contact) * REST * contact.fall;
+        if contact.approach_speed() < -self.slow(contact, held) || contact.overlap < -gap {
             return ContactForce::default();
         }
         let weight = contact.fall / contact.elapsed;
