@@ -7,9 +7,9 @@
 // Small functions of the innermost loop: the compiler must see the loop whole.
 #![allow(clippy::inline_always)]
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
-use super::scene::Scene;
+use super::scene::{Scene, contact, meeting, resolve};
 use super::vectors::{axial, polar};
 use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce, Edge};
@@ -187,8 +187,7 @@ impl<L: ContactLaw> Chunk<L> {
         &mut self.memory
     }
 
-    /// The contact of a number, `elapsed` seconds after its memory was advanced. Coincident centres
-    /// have no normal and feel no force.
+    /// The contact of a number, `elapsed` seconds after its memory was advanced.
     #[inline(always)]
     pub(crate) fn contact<const PAIRS: bool, const PLANAR: bool>(
         &self,
@@ -201,27 +200,13 @@ impl<L: ContactLaw> Chunk<L> {
             .each_ref()
             .map(|spins| axial::<PLANAR>(spins.get(n)));
         let towards = polar::<PLANAR>(self.towards.get(n));
-        let (normal, overlap) = if PAIRS {
-            let distance = towards.length();
-            let inverse = 1.0 / (distance + f64::MIN_POSITIVE);
-            let normal = polar::<PLANAR>(towards * inverse);
-            (normal, radii[0] + radii[1] - distance)
+        let place = if PAIRS {
+            meeting::<PLANAR>(towards, radii)
         } else {
             (towards, self.overlap[n])
         };
-        let turning = spins[0] * radii[0] + spins[1] * radii[1];
-        let velocity = polar::<PLANAR>(self.velocity.get(n)) - turning.cross(normal);
-        let velocity = polar::<PLANAR>(velocity);
-        Contact {
-            normal,
-            overlap,
-            velocity,
-            velocity_ahead: velocity,
-            spins,
-            fall: 0.0,
-            elapsed,
-            mobility: DMat3::ZERO,
-        }
+        let velocity = polar::<PLANAR>(self.velocity.get(n));
+        contact::<PLANAR>(place, velocity, spins, radii, elapsed)
     }
 
     /// Has `law` answer the contacts, with the `only` coefficients that there are, or else with those
@@ -299,14 +284,9 @@ impl<L: ContactLaw> Chunk<L> {
         normal: DVec3,
         answer: &ContactForce,
     ) {
-        let push = normal * answer.normal + answer.tangential;
+        let radii = self.radii.each_ref().map(|radii| radii[n]);
+        let (push, [first, second]) = resolve::<PLANAR, COUPLE>(normal, radii, answer);
         self.push.set_polar::<PLANAR>(n, push);
-        let turn = answer.tangential.cross(normal);
-        let [mut first, mut second] = self.radii.each_ref().map(|radii| turn * radii[n]);
-        if COUPLE {
-            first += answer.couple;
-            second -= answer.couple;
-        }
         self.torques[0].set_axial::<PLANAR>(n, first);
         self.torques[1].set_axial::<PLANAR>(n, second);
     }

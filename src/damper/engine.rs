@@ -294,9 +294,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// The mount's accelerations under the loads on the walls.
     pub(crate) fn accelerate_mount(&mut self, time: f64) {
         for (room, load) in self.world.rooms.iter().zip(&mut self.loads) {
-            let first = room.first_wall as usize;
-            let walls = &self.wall_loads[first..first + room.cavity.walls() as usize];
-            *load = walls.iter().map(|wall| wall.force).sum();
+            *load = room.load(&self.wall_loads);
         }
         let degrees = self.mount.degrees();
         let state = &mut self.mount_state;

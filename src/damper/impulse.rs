@@ -94,10 +94,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 resting,
             };
             let speed = self.strike_in_turn(&round);
-            resting &= speed < STIRRED * fall;
-            if speed < negligible && !(resting && speed >= STILL * fall) {
+            if !round.notes(speed, fall) {
                 break;
             }
+            resting &= speed < STIRRED * fall;
         }
     }
 

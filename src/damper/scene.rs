@@ -10,8 +10,9 @@ use glam::DVec3;
 use super::chunk::Moment;
 use super::coefficients::Coefficients;
 use super::particles::Particles;
-use super::vectors::{Components, vector};
+use super::vectors::{Components, polar, vector};
 use crate::cavity::{Cavity, WallPoint};
+use crate::contact::{Contact, ContactForce};
 use crate::law::ContactLaw;
 use crate::mount::Motion;
 
@@ -115,6 +116,61 @@ pub(crate) struct Grain {
     pub(crate) velocity: DVec3,
     pub(crate) spin: DVec3,
     pub(crate) radius: f64,
+}
+
+/// Normal, and overlap in m, of two spheres whose centres are `towards` apart, from the second to the
+/// first. Coincident centres have no normal and feel no force.
+#[inline(always)]
+pub(crate) fn meeting<const PLANAR: bool>(towards: DVec3, radii: [f64; 2]) -> (DVec3, f64) {
+    let distance = towards.length();
+    let inverse = 1.0 / (distance + f64::MIN_POSITIVE);
+    let normal = polar::<PLANAR>(towards * inverse);
+    (normal, radii[0] + radii[1] - distance)
+}
+
+/// The contact of two bodies along `normal`. `velocity` (m/s) is that of the first centre relative to
+/// the second body, and a wall has radius zero.
+#[inline(always)]
+pub(crate) fn contact<const PLANAR: bool>(
+    (normal, overlap): (DVec3, f64),
+    velocity: DVec3,
+    spins: [DVec3; 2],
+    radii: [f64; 2],
+    elapsed: f64,
+) -> Contact {
+    let turning = spins[0] * radii[0] + spins[1] * radii[1];
+    let velocity = polar::<PLANAR>(velocity - turning.cross(normal));
+    Contact {
+        spins,
+        elapsed,
+        ..Contact::new(normal, overlap, velocity)
+    }
+}
+
+/// Force on the first of two bodies, and torques on both. Without `COUPLE` the answer has none.
+#[inline(always)]
+pub(crate) fn resolve<const PLANAR: bool, const COUPLE: bool>(
+    normal: DVec3,
+    radii: [f64; 2],
+    answer: &ContactForce,
+) -> (DVec3, [DVec3; 2]) {
+    let tangential = polar::<PLANAR>(answer.tangential);
+    let turn = tangential.cross(normal);
+    let [mut first, mut second] = radii.map(|radius| turn * radius);
+    if COUPLE {
+        first += answer.couple;
+        second -= answer.couple;
+    }
+    (normal * answer.normal + tangential, [first, second])
+}
+
+impl<C: Cavity> Room<C> {
+    /// Force of the particles on the container in N, from the loads on the walls of all cavities.
+    pub(crate) fn load(&self, walls: &[WallLoad]) -> DVec3 {
+        let first = self.first_wall as usize;
+        let own = &walls[first..first + self.cavity.walls() as usize];
+        own.iter().map(|wall| wall.force).sum()
+    }
 }
 
 impl<C> Room<C> {

@@ -149,6 +149,7 @@ impl<'a, const PLANAR: bool> Sums<'a, PLANAR> {
         }
     }
 }
+
 /// Runs of at most [`CHUNK`] contacts, one after the other.
 fn runs(contacts: usize) -> impl Iterator<Item = Range<usize>> {
     let starts = (0..contacts).step_by(CHUNK);

@@ -9,7 +9,7 @@ use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce};
 use crate::damper::candidates::{Candidates, Touch, make_room};
 use crate::damper::particles::Particles;
-use crate::damper::scene::Scene;
+use crate::damper::scene::{Scene, World, contact, meeting, resolve};
 use crate::damper::vectors::{Vectors, axial, polar, vector};
 use crate::law::ContactLaw;
 
@@ -82,8 +82,9 @@ impl<M> Joint<M> {
         let [first, second] = self.bodies.map(|slot| &movers[slot as usize]);
         let velocity = polar::<PLANAR>(first.velocity) - polar::<PLANAR>(second.velocity);
         let spins = [first.spin, second.spin].map(axial::<PLANAR>);
+        let normal = polar::<PLANAR>(self.normal);
         let surroundings = &containers[self.cavity as usize].surroundings;
-        self.contact(polar::<PLANAR>(self.normal), velocity, spins, surroundings)
+        self.contact::<PLANAR>(normal, velocity, spins, surroundings)
     }
 
     /// The contact of a particle with a wall.
@@ -92,13 +93,9 @@ impl<M> Joint<M> {
         let mover = &movers[self.bodies[0] as usize];
         let container = &containers[self.cavity as usize];
         let velocity = mover.velocity - container.velocity;
+        let spins = [mover.spin, DVec3::ZERO];
         let surroundings = &container.surroundings;
-        let contact = self.contact(
-            self.normal,
-            velocity,
-            [mover.spin, DVec3::ZERO],
-            surroundings,
-        );
+        let contact = self.contact::<false>(self.normal, velocity, spins, surroundings);
         Contact {
             velocity_ahead: contact.velocity + surroundings.ahead,
             mobility: surroundings.mobility,
@@ -107,41 +104,36 @@ impl<M> Joint<M> {
     }
 
     #[inline(always)]
-    fn contact(
+    fn contact<const PLANAR: bool>(
         &self,
         normal: DVec3,
         velocity: DVec3,
         spins: [DVec3; 2],
         surroundings: &Surroundings,
     ) -> Contact {
-        let turning = spins[0] * self.radii[0] + spins[1] * self.radii[1];
-        let velocity = velocity - turning.cross(normal);
+        let (place, dt) = ((normal, self.overlap), surroundings.time_step);
         Contact {
-            normal,
-            overlap: self.overlap,
-            velocity,
-            velocity_ahead: velocity,
             fall: surroundings.fall,
-            spins,
-            elapsed: surroundings.time_step,
-            mobility: DMat3::ZERO,
+            ..contact::<PLANAR>(place, velocity, spins, self.radii, dt)
         }
     }
 
-    /// Force on the first body, and torques on the first and on the second.
+    /// Force on the first body, and torques on both.
     #[inline(always)]
-    pub(super) fn resolve<const PLANAR: bool>(
-        &self,
-        answer: &ContactForce,
-    ) -> (DVec3, DVec3, DVec3) {
-        let normal = polar::<PLANAR>(self.normal);
-        let tangential = polar::<PLANAR>(answer.tangential);
-        let force = normal * answer.normal + tangential;
-        let turn = tangential.cross(normal);
-        let first = turn * self.radii[0] + answer.couple;
-        let second = turn * self.radii[1] - answer.couple;
-        (force, first, second)
+    pub(super) fn resolve<const PLANAR: bool>(&self, answer: &ContactForce) -> (DVec3, [DVec3; 2]) {
+        resolve::<PLANAR, true>(polar::<PLANAR>(self.normal), self.radii, answer)
     }
+}
+
+/// The coefficients of a pair: those that all have, or its own among `kinds`.
+#[inline(always)]
+pub(super) fn kind_of_pair<'a, C, L: ContactLaw>(
+    world: &'a World<C, L>,
+    kinds: &'a [L::Coefficients],
+    number: usize,
+) -> &'a L::Coefficients {
+    let only = world.coefficients.only_pair();
+    only.unwrap_or_else(|| &kinds[number])
 }
 
 /// What happens to all bodies in a cavity over the step.
@@ -235,16 +227,14 @@ impl<L: ContactLaw> Joints<L> {
         let [x, y, z] = scene.position;
         let z = if scene.planar { 0.0 } else { z[i] - z[j] };
         let towards = DVec3::new(x[i] - x[j], y[i] - y[j], z);
-        let distance = towards.length();
-        let overlap = radii[0] + radii[1] - distance;
+        let (normal, overlap) = meeting::<false>(towards, radii);
         let remembered = list.touched(touch.place, scene.stamp);
         self.pairs.push(Joint {
             bodies: touch.bodies,
             cavity: cavity as u32,
             remembers: remembered.is_some(),
             radii,
-            // Coincident centres have no normal and feel no force.
-            normal: towards * (1.0 / (distance + f64::MIN_POSITIVE)),
+            normal,
             overlap,
             memory: remembered.copied().unwrap_or_default(),
         });

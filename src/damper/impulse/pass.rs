@@ -3,7 +3,7 @@
 // Small functions of the innermost loop: the compiler must see the loop whole.
 #![allow(clippy::inline_always)]
 
-use super::joint::Joints;
+use super::joint::{Joints, kind_of_pair};
 use super::{STILL, STIRRED};
 use crate::cavity::Cavity;
 use crate::contact::ContactForce;
@@ -82,7 +82,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     pub(super) fn push_wall(&mut self, number: usize, answer: &ContactForce) {
         let joints = &mut self.joints;
         let joint = &joints.walls[number];
-        let (force, torque, _) = joint.resolve::<false>(answer);
+        let (force, [torque, _]) = joint.resolve::<false>(answer);
         let (slot, wall) = (joint.bodies[0] as usize, joint.bodies[1] as usize);
         let cavity = joint.cavity as usize;
         joints.movers[slot].take::<false>(force, torque);
@@ -98,9 +98,13 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
     }
 
-    /// Gives the containers the velocities that the mount's coordinates have.
+    /// Gives the containers the velocities that the mount's coordinates have. One without coordinates does
+    /// not yield.
     pub(super) fn move_containers(&mut self) {
         let degrees = self.mount.degrees();
+        if degrees == 0 {
+            return;
+        }
         let coordinates = &self.mount_state.position[..degrees];
         let joints = &mut self.joints;
         for (cavity, container) in joints.containers.iter_mut().enumerate() {
@@ -145,8 +149,7 @@ impl<L: ContactLaw> Joints<L> {
     ) -> f64 {
         let joint = &mut self.pairs[number];
         let contact = joint.between::<PLANAR>(&self.movers, &self.containers);
-        let only = world.coefficients.only_pair();
-        let kind = only.unwrap_or_else(|| &self.kinds[number]);
+        let kind = kind_of_pair(world, &self.kinds, number);
         let answer = world.law.strike(kind, &contact, &mut joint.memory);
         if answer == ContactForce::default() {
             return 0.0;
@@ -172,7 +175,7 @@ impl<L: ContactLaw> Joints<L> {
         answer: &ContactForce,
     ) -> f64 {
         let joint = &self.pairs[number];
-        let (force, first, second) = joint.resolve::<PLANAR>(answer);
+        let (force, [first, second]) = joint.resolve::<PLANAR>(answer);
         let [i, j] = joint.bodies.map(|slot| slot as usize);
         self.movers[i].take::<PLANAR>(force, first);
         self.movers[j].take::<PLANAR>(-force, second);

@@ -1,12 +1,7 @@
 //! Impulses that do not wait for each other: what contacts carry over from the step before, and those
 //! of laws that take all contacts at once.
 
-// Small functions of the innermost loop: the compiler must see the loop whole.
-#![allow(clippy::inline_always)]
-
-use glam::DVec3;
-
-use super::joint::Joints;
+use super::joint::{Joints, kind_of_pair};
 use crate::cavity::Cavity;
 use crate::damper::candidates::Candidates;
 use crate::damper::engine::Engine;
@@ -80,11 +75,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                     * (gain.dot(mover.velocity - start.velocity)
                         + turn.dot(mover.spin - start.spin));
             }
-            let first = room.first_wall as usize;
-            let walls = &self.wall_loads[first..first + room.cavity.walls() as usize];
-            let load: DVec3 = walls.iter().map(|wall| wall.force).sum();
             let yielded = container.velocity - room.motion.velocity;
-            curvature += 0.5 * load.dot(yielded) * time_step;
+            curvature += 0.5 * room.load(&self.wall_loads).dot(yielded) * time_step;
         }
         [slope, curvature]
     }
@@ -105,19 +97,20 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         if !Candidates::<L>::REMEMBERS {
             return;
         }
-        let (law, coefficients) = (&self.world.law, &self.world.coefficients);
+        let world = &self.world;
         let joints = &mut self.joints;
         for (number, joint) in joints.pairs.iter_mut().enumerate() {
             let contact = joint.between::<false>(&joints.movers, &joints.containers);
-            let only = coefficients.only_pair();
-            let kind = only.unwrap_or_else(|| &joints.kinds[number]);
-            joint.memory = law.advance(kind, &contact, &joint.memory);
+            let kind = kind_of_pair(world, &joints.kinds, number);
+            joint.memory = world.law.advance(kind, &contact, &joint.memory);
             joint.remembers = true;
         }
         for joint in &mut joints.walls {
             let contact = joint.at_wall(&joints.movers, &joints.containers);
-            let kind = coefficients.wall(self.particles.species[joint.bodies[0] as usize]);
-            joint.memory = law.advance(kind, &contact, &joint.memory);
+            let kind = world
+                .coefficients
+                .wall(self.particles.species[joint.bodies[0] as usize]);
+            joint.memory = world.law.advance(kind, &contact, &joint.memory);
             joint.remembers = true;
         }
     }
@@ -136,8 +129,7 @@ impl<L: ContactLaw> Joints<L> {
                 continue;
             }
             let contact = joint.between::<PLANAR>(&self.starts, &self.containers);
-            let only = world.coefficients.only_pair();
-            let kind = only.unwrap_or_else(|| &self.kinds[number]);
+            let kind = kind_of_pair(world, &self.kinds, number);
             let answer = world.law.carry(kind, &contact, &mut joint.memory, part);
             if joint.goes_on(&answer) {
                 any = true;
@@ -151,8 +143,7 @@ impl<L: ContactLaw> Joints<L> {
         for number in 0..self.pairs.len() {
             let joint = &self.pairs[number];
             let contact = joint.between::<false>(&self.starts, &self.containers);
-            let only = world.coefficients.only_pair();
-            let kind = only.unwrap_or_else(|| &self.kinds[number]);
+            let kind = kind_of_pair(world, &self.kinds, number);
             let answer = world.law.force(kind, &contact, &joint.memory);
             self.push_pair::<false>(number, &answer);
         }
