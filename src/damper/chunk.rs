@@ -9,7 +9,7 @@
 
 use glam::DVec3;
 
-use super::scene::{Scene, contact, meeting, resolve};
+use super::scene::{Scene, at_surface, meeting, resolve};
 use super::vectors::{axial, polar};
 use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce, Edge};
@@ -82,10 +82,10 @@ pub(crate) struct Moment {
 #[derive(Debug, Clone)]
 pub(crate) struct Chunk<L: ContactLaw> {
     count: usize,
-    /// From the second body to the first: of two spheres as far as their centres are apart (m), of a
-    /// sphere and a wall the normal.
+    /// From the second body to the first: until they [meet](Self::meet), of two spheres as far as their
+    /// centres are apart (m); then the normal.
     towards: Lanes,
-    /// Velocity of the first centre relative to the second body's, m/s.
+    /// Velocity of the first centre relative to the second body's, and then of the surfaces, m/s.
     velocity: Lanes,
     spins: [Lanes; 2],
     /// Zero for a wall.
@@ -187,26 +187,46 @@ impl<L: ContactLaw> Chunk<L> {
         &mut self.memory
     }
 
+    /// Works out where and how fast the bodies meet. Apart from the law, so that the roots and
+    /// quotients of more contacts are under way at a time.
+    #[inline(never)]
+    fn meet<const PAIRS: bool, const PLANAR: bool>(&mut self) {
+        for n in 0..self.count.min(CHUNK) {
+            let radii = self.radii.each_ref().map(|radii| radii[n]);
+            let towards = polar::<PLANAR>(self.towards.get(n));
+            let normal = if PAIRS {
+                let (normal, overlap) = meeting::<PLANAR>(towards, radii);
+                self.overlap[n] = overlap;
+                self.towards.set_polar::<PLANAR>(n, normal);
+                normal
+            } else {
+                towards
+            };
+            let spins = self
+                .spins
+                .each_ref()
+                .map(|spins| axial::<PLANAR>(spins.get(n)));
+            let velocity = polar::<PLANAR>(self.velocity.get(n));
+            let velocity = at_surface::<PLANAR>(normal, velocity, spins, radii);
+            self.velocity.set_polar::<PLANAR>(n, velocity);
+            self.approach[n] = -velocity.dot(normal);
+        }
+    }
+
     /// The contact of a number, `elapsed` seconds after its memory was advanced.
     #[inline(always)]
-    pub(crate) fn contact<const PAIRS: bool, const PLANAR: bool>(
-        &self,
-        n: usize,
-        elapsed: f64,
-    ) -> Contact {
-        let radii = self.radii.each_ref().map(|radii| radii[n]);
+    pub(crate) fn contact<const PLANAR: bool>(&self, n: usize, elapsed: f64) -> Contact {
         let spins = self
             .spins
             .each_ref()
             .map(|spins| axial::<PLANAR>(spins.get(n)));
-        let towards = polar::<PLANAR>(self.towards.get(n));
-        let place = if PAIRS {
-            meeting::<PLANAR>(towards, radii)
-        } else {
-            (towards, self.overlap[n])
-        };
+        let normal = polar::<PLANAR>(self.towards.get(n));
         let velocity = polar::<PLANAR>(self.velocity.get(n));
-        contact::<PLANAR>(place, velocity, spins, radii, elapsed)
+        Contact {
+            spins,
+            elapsed,
+            ..Contact::new(normal, self.overlap[n], velocity)
+        }
     }
 
     /// Has `law` answer the contacts, with the `only` coefficients that there are, or else with those
@@ -219,6 +239,7 @@ impl<L: ContactLaw> Chunk<L> {
         kinds: impl Iterator<Item = L::Coefficients>,
         elapsed: f64,
     ) {
+        self.meet::<PAIRS, PLANAR>();
         if let Some(only) = only {
             if law.has_couple(only) {
                 self.answer_alike::<PAIRS, END, PLANAR, true>(law, only, elapsed);
@@ -265,14 +286,12 @@ impl<L: ContactLaw> Chunk<L> {
         n: usize,
         elapsed: f64,
     ) {
-        let contact = self.contact::<PAIRS, PLANAR>(n, elapsed);
+        let contact = self.contact::<PLANAR>(n, elapsed);
         let memory = self.memory[n];
         let answer = law.force(kind, &contact, &memory);
         if END {
             self.advanced[n] = law.advance(kind, &contact, &memory);
         }
-        self.overlap[n] = contact.overlap;
-        self.approach[n] = contact.approach_speed();
         self.note::<PLANAR, COUPLE>(n, contact.normal, &answer);
     }
 
@@ -325,7 +344,7 @@ impl<L: ContactLaw> Chunk<L> {
         acceleration: DVec3,
     ) -> (Contact, ContactForce, L::Memory) {
         let Moment { elapsed, time_step } = moment;
-        let (contact, memory) = (self.contact::<PAIRS, false>(n, elapsed), &self.memory[n]);
+        let (contact, memory) = (self.contact::<false>(n, elapsed), &self.memory[n]);
         let (overlap, approach) = (contact.overlap, contact.approach_speed());
         if law.has_edges() && Edge::is_near(overlap, approach, time_step) {
             let edge = Edge::new(time_step, acceleration.dot(contact.normal));

@@ -1,4 +1,4 @@
-//! What contacts are computed from, and how two bodies become a [`Contact`].
+//! What contacts are computed from, and how two bodies meet and part.
 
 // Small functions of the innermost loop: the compiler must see the loop whole.
 #![allow(clippy::inline_always)]
@@ -12,7 +12,7 @@ use super::coefficients::Coefficients;
 use super::particles::Particles;
 use super::vectors::{Components, polar, vector};
 use crate::cavity::{Cavity, WallPoint};
-use crate::contact::{Contact, ContactForce};
+use crate::contact::ContactForce;
 use crate::law::ContactLaw;
 use crate::mount::Motion;
 
@@ -128,23 +128,17 @@ pub(crate) fn meeting<const PLANAR: bool>(towards: DVec3, radii: [f64; 2]) -> (D
     (normal, radii[0] + radii[1] - distance)
 }
 
-/// The contact of two bodies along `normal`. `velocity` (m/s) is that of the first centre relative to
-/// the second body, and a wall has radius zero.
+/// Velocity of one surface relative to the other in m/s. `velocity` is that of the first centre
+/// relative to the second body, and a wall has radius zero.
 #[inline(always)]
-pub(crate) fn contact<const PLANAR: bool>(
-    (normal, overlap): (DVec3, f64),
+pub(crate) fn at_surface<const PLANAR: bool>(
+    normal: DVec3,
     velocity: DVec3,
     spins: [DVec3; 2],
     radii: [f64; 2],
-    elapsed: f64,
-) -> Contact {
+) -> DVec3 {
     let turning = spins[0] * radii[0] + spins[1] * radii[1];
-    let velocity = polar::<PLANAR>(velocity - turning.cross(normal));
-    Contact {
-        spins,
-        elapsed,
-        ..Contact::new(normal, overlap, velocity)
-    }
+    polar::<PLANAR>(velocity - turning.cross(normal))
 }
 
 /// Force on the first of two bodies, and torques on both. Without `COUPLE` the answer has none.

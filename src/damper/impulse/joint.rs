@@ -9,7 +9,7 @@ use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce};
 use crate::damper::candidates::{Candidates, Touch, make_room};
 use crate::damper::particles::Particles;
-use crate::damper::scene::{Scene, World, contact, meeting, resolve};
+use crate::damper::scene::{Scene, World, at_surface, meeting, resolve};
 use crate::damper::vectors::{Vectors, axial, polar, vector};
 use crate::law::ContactLaw;
 
@@ -111,10 +111,12 @@ impl<M> Joint<M> {
         spins: [DVec3; 2],
         surroundings: &Surroundings,
     ) -> Contact {
-        let (place, dt) = ((normal, self.overlap), surroundings.time_step);
+        let velocity = at_surface::<PLANAR>(normal, velocity, spins, self.radii);
         Contact {
+            spins,
             fall: surroundings.fall,
-            ..contact::<PLANAR>(place, velocity, spins, self.radii, dt)
+            elapsed: surroundings.time_step,
+            ..Contact::new(normal, self.overlap, velocity)
         }
     }
 
