@@ -9,8 +9,8 @@ pub use runge_kutta::RungeKutta4;
 pub use verlet::VelocityVerlet;
 
 /// One group of coordinates: their values, rates and accelerations, in columns of equal length.
-/// Vectors are taken apart: all x, then all y, then all z. Where a bed stays in a plane, what is
-/// always zero is left out.
+/// Vectors are one after the other: x, y and z of the first, then of the second. Where a bed stays in
+/// a plane, what is always zero is left out.
 #[derive(Debug)]
 pub struct Columns<'a> {
     /// Positions. Empty for coordinates of which only the rate matters (the spin of spheres).

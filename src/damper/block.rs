@@ -12,7 +12,7 @@ use super::Partner;
 use super::candidates::{Candidates, Remembered};
 use super::chunk::Chunk;
 use super::scene::{Scene, WallLoad};
-use super::vectors::{Components, part, vector};
+use super::vectors::Rows;
 use crate::cavity::Cavity;
 use crate::law::ContactLaw;
 
@@ -107,34 +107,29 @@ impl<L: ContactLaw> Block<L> {
     pub(crate) fn narrow<C: Cavity>(
         &mut self,
         scene: &Scene<'_, C, L>,
-        reference: &Components<'_>,
+        reference: Rows<'_>,
     ) -> bool {
         let mut trusted = true;
         for room in scene.rooms {
             let own = room.slots_in(&self.slots);
-            let (now, then) = (part(&scene.position, own.clone()), part(reference, own));
+            let (now, then) = (scene.position.part(own.clone()), reference.part(own));
             let limit = 0.25 * room.margin * room.margin;
-            trusted &= within(now, then, room.motion.position, limit);
-        }
-        let [x, y, z] = scene.position;
-        let y = &y[..x.len()];
-        for list in [&mut self.pairs, &mut self.border] {
-            let square = |i: usize, j: usize| {
-                let (x, y) = (x[i] - x[j], y[i] - y[j]);
-                x * x + y * y
-            };
-            if scene.planar {
-                list.find(|i, j| square(i, j as usize));
+            let origin = room.motion.position;
+            trusted &= if scene.planar {
+                within::<true>(now, then, origin, limit)
             } else {
-                let z = &z[..x.len()];
-                list.find(|i, j| {
-                    let z = z[i] - z[j as usize];
-                    square(i, j as usize) + z * z
-                });
+                within::<false>(now, then, origin, limit)
+            };
+        }
+        for list in [&mut self.pairs, &mut self.border] {
+            if scene.planar {
+                find_pairs::<C, L, true>(scene, list);
+            } else {
+                find_pairs::<C, L, false>(scene, list);
             }
         }
         self.walls.find(|i, wall| {
-            let position = vector(&scene.position, i);
+            let position = scene.position.get(i);
             scene.wall_point(wall, position).distance
         });
         trusted
@@ -161,7 +156,7 @@ impl<L: ContactLaw> Block<L> {
         let bodies = lists.into_iter().flat_map(|list| list.contacts.bodies());
         bodies.map(|[i, j]| {
             let (i, j) = (*i as usize, *j as usize);
-            let distance = vector(&scene.position, i).distance(vector(&scene.position, j));
+            let distance = scene.position.get(i).distance(scene.position.get(j));
             (scene.radius[i] + scene.radius[j] - distance, i, j)
         })
     }
@@ -173,9 +168,7 @@ impl<L: ContactLaw> Block<L> {
     ) -> impl Iterator<Item = (f64, usize, u32)> {
         self.walls.contacts.bodies().iter().map(|[slot, wall]| {
             let slot = *slot as usize;
-            let distance = scene
-                .wall_point(*wall, vector(&scene.position, slot))
-                .distance;
+            let distance = scene.wall_point(*wall, scene.position.get(slot)).distance;
             (scene.radius[slot] - distance, slot, *wall)
         })
     }
@@ -202,27 +195,23 @@ impl<L: ContactLaw> Block<L> {
     }
 }
 
+/// Lists the pairs in contact.
+#[inline(always)]
+fn find_pairs<C, L: ContactLaw, const PLANAR: bool>(
+    scene: &Scene<'_, C, L>,
+    list: &mut Candidates<L>,
+) {
+    let position = scene.position.polar::<PLANAR>(scene.radius.len());
+    list.find(|i, j| position.get(i).distance_squared(position.get(j as usize)));
+}
+
 /// Whether all points `now` are nearer to those `then`, seen from `origin`, than the root of `limit`.
-fn within(now: Components<'_>, then: Components<'_>, origin: DVec3, limit: f64) -> bool {
-    let [x, y, z] = now;
-    let count = x.len();
-    let moved = |n: usize, now: &[f64], then: &[f64], origin: f64| {
-        let moved = now[n] - origin - then[n];
-        moved * moved
-    };
-    let (y, then_x, then_y) = (&y[..count], &then[0][..count], &then[1][..count]);
+fn within<const PLANAR: bool>(now: Rows<'_>, then: Rows<'_>, origin: DVec3, limit: f64) -> bool {
+    let count = now.len();
+    let (now, then) = (now.polar::<PLANAR>(count), then.polar::<PLANAR>(count));
     let mut within = true;
-    if z.is_empty() {
-        for n in 0..count {
-            let square = moved(n, x, then_x, origin.x) + moved(n, y, then_y, origin.y);
-            within &= square <= limit;
-        }
-    } else {
-        let (z, then_z) = (&z[..count], &then[2][..count]);
-        for n in 0..count {
-            let square = moved(n, x, then_x, origin.x) + moved(n, y, then_y, origin.y);
-            within &= square + moved(n, z, then_z, origin.z) <= limit;
-        }
+    for n in 0..count {
+        within &= (now.get(n) - origin - then.get(n)).length_squared() <= limit;
     }
     within
 }

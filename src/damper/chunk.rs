@@ -127,38 +127,22 @@ impl<L: ContactLaw> Chunk<L> {
         scene: &Scene<'_, C, L>,
         bodies: &[[u32; 2]],
     ) {
-        let [x, y, z] = scene.position;
-        let [u, v, w] = scene.velocity;
-        let [turns_x, turns_y, turns_z] = scene.spin;
+        let radius = scene.radius;
         // Columns of one length, so that one comparison stands for all their bounds.
-        let count = x.len();
-        let (y, u, v) = (&y[..count], &u[..count], &v[..count]);
-        let (turns_z, radius) = (&turns_z[..count], &scene.radius[..count]);
-        let (z, w, turns_x, turns_y) = if PLANAR {
-            (x, x, x, x)
-        } else {
-            let turns = (&turns_x[..count], &turns_y[..count]);
-            (&z[..count], &w[..count], turns.0, turns.1)
-        };
+        let position = scene.position.polar::<PLANAR>(radius.len());
+        let velocity = scene.velocity.polar::<PLANAR>(radius.len());
+        let spin = scene.spin.axial::<PLANAR>(radius.len());
         self.count = bodies.len().min(CHUNK);
         for (n, [i, j]) in bodies.iter().take(CHUNK).enumerate() {
             let (i, j) = (*i as usize, *j as usize);
-            self.towards.x[n] = x[i] - x[j];
-            self.towards.y[n] = y[i] - y[j];
-            self.velocity.x[n] = u[i] - u[j];
-            self.velocity.y[n] = v[i] - v[j];
-            self.spins[0].z[n] = turns_z[i];
-            self.spins[1].z[n] = turns_z[j];
+            let towards = position.get(i) - position.get(j);
+            let velocity = velocity.get(i) - velocity.get(j);
+            self.towards.set_polar::<PLANAR>(n, towards);
+            self.velocity.set_polar::<PLANAR>(n, velocity);
+            self.spins[0].set_axial::<PLANAR>(n, spin.get(i));
+            self.spins[1].set_axial::<PLANAR>(n, spin.get(j));
             self.radii[0][n] = radius[i];
             self.radii[1][n] = radius[j];
-            if !PLANAR {
-                self.towards.z[n] = z[i] - z[j];
-                self.velocity.z[n] = w[i] - w[j];
-                self.spins[0].x[n] = turns_x[i];
-                self.spins[0].y[n] = turns_y[i];
-                self.spins[1].x[n] = turns_x[j];
-                self.spins[1].y[n] = turns_y[j];
-            }
         }
     }
 

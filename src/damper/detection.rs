@@ -30,8 +30,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Narrow phase. Returns whether the candidates could be trusted.
     fn narrow(&mut self) -> bool {
         let scene = self.world.scene(&self.particles, 0.0);
-        let reference = self.scratch.reference.components();
-        all_blocks(&mut self.blocks, &|block| block.narrow(&scene, &reference))
+        let reference = self.scratch.reference.rows();
+        all_blocks(&mut self.blocks, &|block| block.narrow(&scene, reference))
     }
 
     /// Broad phase: lists candidates anew. Contacts remember what they did, or what is `saved` by

@@ -15,7 +15,7 @@ use crate::integrator::Stage;
 use crate::law::{ContactLaw, Evaluation};
 use crate::mount::{Motion, Mount};
 use crate::observer::Observer;
-use crate::parallel::{Pool, for_each, update};
+use crate::parallel::{Pool, for_each};
 
 /// Coordinates of the mount, followed by three per cavity whose velocity sums up the impulse on its
 /// container. Integrating them along with the rest makes that impulse exactly the momentum that the
@@ -185,20 +185,22 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
         let mut torque = std::mem::take(&mut self.particles.angular_acceleration);
         let scene = self.world.scene(&self.particles, elapsed);
-        let sums = (force.components_mut(), torque.components_mut());
+        let widths = (force.width(), torque.width());
+        let sums = (force.flat_mut(), torque.flat_mut());
         if END && observer.wants_contacts() {
-            let mut rests = sums;
+            let (mut forces, mut torques) = sums;
             for block in &mut self.blocks {
-                let count = block.slots.len();
-                let force = split_off(&mut rests.0, count);
-                let torque = split_off(&mut rests.1, count);
+                let (force, torque);
+                (force, forces) = forces.split_at_mut(widths.0 * block.slots.len());
+                (torque, torques) = torques.split_at_mut(widths.1 * block.slots.len());
                 block.evaluate::<C, O, END>(&scene, force, torque, observer);
             }
         } else {
-            let split = |(mut force, mut torque), blocks: &[Block<L>]| {
-                let count = blocks.iter().map(|block| block.slots.len()).sum();
-                let own = (split_off(&mut force, count), split_off(&mut torque, count));
-                (own, (force, torque))
+            let split = |(forces, torques), blocks: &[Block<L>]| {
+                let count: usize = blocks.iter().map(|block| block.slots.len()).sum();
+                let (force, forces) = <[f64]>::split_at_mut(forces, widths.0 * count);
+                let (torque, torques) = <[f64]>::split_at_mut(torques, widths.1 * count);
+                ((force, torque), (forces, torques))
             };
             for_each(&mut self.blocks, sums, &split, &|block, (force, torque)| {
                 block.evaluate::<C, (), END>(&scene, force, torque, &mut ());
@@ -210,21 +212,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             force.set(slot, force.get(slot) + parcel.force);
             torque.set(slot, torque.get(slot) + parcel.torque);
         }
-        let gravity = self.gravity.to_array();
-        for (component, gravity) in force.components_mut().into_iter().zip(gravity) {
-            update(component, &self.particles.inverse_mass, |force, inverse| {
-                *force = *force * inverse + gravity;
-            });
-        }
-        for component in torque.components_mut() {
-            update(
-                component,
-                &self.particles.inverse_inertia,
-                |torque, inverse| {
-                    *torque *= inverse;
-                },
-            );
-        }
+        force.scale(&self.particles.inverse_mass, self.gravity);
+        torque.scale(&self.particles.inverse_inertia, DVec3::ZERO);
         let finite = force.is_finite() && torque.is_finite();
         let before = std::mem::replace(&mut self.particles.acceleration, force);
         if mends {
@@ -331,12 +320,4 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         self.accelerate_mount(time);
         Ok(())
     }
-}
-
-/// Takes the first `count` of each component off `rest`.
-fn split_off<'a>(rest: &mut [&'a mut [f64]; 3], count: usize) -> [&'a mut [f64]; 3] {
-    rest.each_mut().map(|component| {
-        let end = count.min(component.len());
-        component.split_off_mut(..end).unwrap_or_default()
-    })
 }

@@ -221,18 +221,11 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     fn hold(&mut self, time_step: f64) -> Result<(), StepError> {
         let (joints, particles) = (&self.joints, &mut self.particles);
         let rate = 1.0 / time_step;
-        let gravity = self.gravity.to_array();
-        let velocity = particles.acceleration.components_mut().into_iter();
-        let spin = particles.angular_acceleration.components_mut().into_iter();
-        for (axis, (velocity, spin)) in velocity.zip(spin).enumerate() {
-            let both = || joints.movers.iter().zip(&joints.starts);
-            for (acceleration, (mover, start)) in velocity.iter_mut().zip(both()) {
-                let gain = mover.velocity[axis] - start.velocity[axis];
-                *acceleration = gain * rate + gravity[axis];
-            }
-            for (acceleration, (mover, start)) in spin.iter_mut().zip(both()) {
-                *acceleration = (mover.spin[axis] - start.spin[axis]) * rate;
-            }
+        for (slot, (mover, start)) in joints.movers.iter().zip(&joints.starts).enumerate() {
+            let gain = mover.velocity - start.velocity;
+            particles.acceleration.set(slot, gain * rate + self.gravity);
+            let turn = mover.spin - start.spin;
+            particles.angular_acceleration.set(slot, turn * rate);
         }
         if particles.acceleration.is_finite() && particles.angular_acceleration.is_finite() {
             Ok(())

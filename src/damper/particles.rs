@@ -99,9 +99,7 @@ impl Particles {
             &mut self.acceleration,
             &mut self.angular_acceleration,
         ] {
-            for component in column.components_mut() {
-                permute(component, &from);
-            }
+            column.permute(&from);
         }
         permute(&mut self.radius, &from);
         permute(&mut self.inverse_mass, &from);
@@ -148,10 +146,8 @@ impl Particles {
     }
 }
 
-/// Fills a column with its values at the places `from`; an empty one stays so.
+/// Fills a column with its values at the places `from`.
 fn permute<T: Copy>(column: &mut [T], from: &[usize]) {
-    if !column.is_empty() {
-        let moved: Vec<T> = from.iter().map(|place| column[*place]).collect();
-        column.copy_from_slice(&moved);
-    }
+    let moved: Vec<T> = from.iter().map(|place| column[*place]).collect();
+    column.copy_from_slice(&moved);
 }

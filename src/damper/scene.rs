@@ -10,7 +10,7 @@ use glam::DVec3;
 use super::chunk::Moment;
 use super::coefficients::Coefficients;
 use super::particles::Particles;
-use super::vectors::{Components, polar, vector};
+use super::vectors::{Rows, polar};
 use crate::cavity::{Cavity, WallPoint};
 use crate::contact::ContactForce;
 use crate::law::ContactLaw;
@@ -55,10 +55,10 @@ impl<C: Cavity, L: ContactLaw> World<C, L> {
             coefficients: &self.coefficients,
             rooms: &self.rooms,
             room_of_wall: &self.room_of_wall,
-            position: particles.position.components(),
-            velocity: particles.velocity.components(),
-            spin: particles.spin.components(),
-            acceleration: particles.acceleration.components(),
+            position: particles.position.rows(),
+            velocity: particles.velocity.rows(),
+            spin: particles.spin.rows(),
+            acceleration: particles.acceleration.rows(),
             radius: &particles.radius,
             species: &particles.species,
             number: &particles.number,
@@ -91,11 +91,11 @@ pub(crate) struct Scene<'a, C, L: ContactLaw> {
     pub(crate) coefficients: &'a Coefficients<L::Coefficients>,
     pub(crate) rooms: &'a [Room<C>],
     pub(crate) room_of_wall: &'a [u32],
-    pub(crate) position: Components<'a>,
-    pub(crate) velocity: Components<'a>,
-    pub(crate) spin: Components<'a>,
+    pub(crate) position: Rows<'a>,
+    pub(crate) velocity: Rows<'a>,
+    pub(crate) spin: Rows<'a>,
     /// As they were evaluated last, if the law has edges to be mended; else empty.
-    pub(crate) acceleration: Components<'a>,
+    pub(crate) acceleration: Rows<'a>,
     pub(crate) radius: &'a [f64],
     pub(crate) species: &'a [u32],
     pub(crate) number: &'a [u32],
@@ -180,9 +180,9 @@ impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
     #[inline(always)]
     pub(crate) fn grain(&self, slot: usize) -> Grain {
         Grain {
-            position: vector(&self.position, slot),
-            velocity: vector(&self.velocity, slot),
-            spin: vector(&self.spin, slot),
+            position: self.position.get(slot),
+            velocity: self.velocity.get(slot),
+            spin: self.spin.get(slot),
             radius: self.radius[slot],
         }
     }

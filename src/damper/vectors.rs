@@ -3,7 +3,11 @@
 // Small functions of the innermost loop: the compiler must see the loop whole.
 #![allow(clippy::inline_always)]
 
+use std::ops::Range;
+
 use glam::DVec3;
+
+use crate::parallel::update;
 
 /// Which components of the vectors of a column are not always zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -17,39 +21,42 @@ pub(crate) enum Axes {
     Normal,
 }
 
-/// The components of a column, each in a slice; empty where they are all zero.
-pub(crate) type Components<'a> = [&'a [f64]; 3];
+impl Axes {
+    /// How many components that are.
+    const fn width(self) -> usize {
+        match self {
+            Self::Space => 3,
+            Self::Plane => 2,
+            Self::Normal => 1,
+        }
+    }
+}
 
-/// A column of vectors: all their x, then all their y, then all their z. What is always zero is left
-/// out.
+/// A column of vectors, one after the other. Components that are always zero are left out.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Vectors {
     values: Vec<f64>,
-    count: usize,
     axes: Axes,
 }
 
 impl Vectors {
     /// A column of `count` zeros.
     pub(crate) fn zeros(axes: Axes, count: usize) -> Self {
-        let components = match axes {
-            Axes::Space => 3,
-            Axes::Plane => 2,
-            Axes::Normal => 1,
-        };
-        Self {
-            values: vec![0.0; components * count],
-            count,
-            axes,
-        }
+        let values = vec![0.0; axes.width() * count];
+        Self { values, axes }
     }
 
     /// How many vectors there are.
     pub(crate) const fn len(&self) -> usize {
-        self.count
+        self.values.len() / self.axes.width()
     }
 
-    /// The numbers one after the other, component by component.
+    /// How many numbers make a vector.
+    pub(crate) const fn width(&self) -> usize {
+        self.axes.width()
+    }
+
+    /// The numbers one after the other.
     pub(crate) fn flat(&self) -> &[f64] {
         &self.values
     }
@@ -59,69 +66,56 @@ impl Vectors {
         &mut self.values
     }
 
-    /// The components.
+    /// The vectors to be read.
     #[inline(always)]
-    pub(crate) fn components(&self) -> Components<'_> {
-        let values = self.values.as_slice();
-        match self.axes {
-            Axes::Space => {
-                let (x, rest) = values.split_at(self.count);
-                let (y, z) = rest.split_at(self.count);
-                [x, y, z]
-            }
-            Axes::Plane => {
-                let (x, y) = values.split_at(self.count);
-                [x, y, &[]]
-            }
-            Axes::Normal => [&[], &[], values],
-        }
-    }
-
-    /// The components to be changed.
-    #[inline(always)]
-    pub(crate) fn components_mut(&mut self) -> [&mut [f64]; 3] {
-        let values = self.values.as_mut_slice();
-        match self.axes {
-            Axes::Space => {
-                let (x, rest) = values.split_at_mut(self.count);
-                let (y, z) = rest.split_at_mut(self.count);
-                [x, y, z]
-            }
-            Axes::Plane => {
-                let (x, y) = values.split_at_mut(self.count);
-                [x, y, &mut []]
-            }
-            Axes::Normal => [&mut [], &mut [], values],
+    pub(crate) fn rows(&self) -> Rows<'_> {
+        Rows {
+            values: &self.values,
+            axes: self.axes,
         }
     }
 
     /// A vector.
     #[inline]
     pub(crate) fn get(&self, n: usize) -> DVec3 {
-        vector(&self.components(), n)
+        self.rows().get(n)
     }
 
     /// Sets a vector; what is always zero stays so.
     #[inline]
     pub(crate) fn set(&mut self, n: usize, vector: DVec3) {
-        let components = self.components_mut();
-        for (component, value) in components.into_iter().zip(vector.to_array()) {
-            if let Some(old) = component.get_mut(n) {
-                *old = value;
-            }
+        match self.axes {
+            Axes::Space => self.values[3 * n..3 * n + 3].copy_from_slice(&vector.to_array()),
+            Axes::Plane => self.values[2 * n..2 * n + 2].copy_from_slice(&[vector.x, vector.y]),
+            Axes::Normal => self.values[n] = vector.z,
         }
     }
 
     /// The vectors.
     pub(crate) fn iter(&self) -> impl ExactSizeIterator<Item = DVec3> {
-        let components = self.components();
-        (0..self.count).map(move |n| vector(&components, n))
+        (0..self.len()).map(|n| self.get(n))
     }
 
     /// Sets all vectors, of which there are as many.
     pub(crate) fn assign(&mut self, vectors: impl IntoIterator<Item = DVec3>) {
-        for (n, vector) in vectors.into_iter().enumerate().take(self.count) {
+        for (n, vector) in (0..self.len()).zip(vectors) {
             self.set(n, vector);
+        }
+    }
+
+    /// Fills the column with its vectors at the places `from`.
+    pub(crate) fn permute(&mut self, from: &[usize]) {
+        let moved: Vec<DVec3> = from.iter().map(|place| self.get(*place)).collect();
+        self.assign(moved);
+    }
+
+    /// Multiplies each vector by the factor in the same place, and adds `shift`.
+    pub(crate) fn scale(&mut self, factors: &[f64], shift: DVec3) {
+        let DVec3 { x, y, z } = shift;
+        match self.axes {
+            Axes::Space => scale(&mut self.values, factors, [x, y, z]),
+            Axes::Plane => scale(&mut self.values, factors, [x, y]),
+            Axes::Normal => scale(&mut self.values, factors, [z]),
         }
     }
 
@@ -144,10 +138,114 @@ impl Vectors {
     }
 }
 
-/// The vector of a number, zero where there are no components.
-#[inline(always)]
-pub(crate) fn vector(components: &Components<'_>, n: usize) -> DVec3 {
-    DVec3::from_array(components.map(|component| component.get(n).copied().unwrap_or(0.0)))
+fn scale<const WIDTH: usize>(values: &mut [f64], factors: &[f64], shift: [f64; WIDTH]) {
+    let (vectors, _) = values.as_chunks_mut::<WIDTH>();
+    update(vectors, factors, |vector, factor| {
+        for (value, shift) in vector.iter_mut().zip(shift) {
+            *value = *value * factor + shift;
+        }
+    });
+}
+
+/// The vectors of a column, to be read.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rows<'a> {
+    values: &'a [f64],
+    axes: Axes,
+}
+
+impl<'a> Rows<'a> {
+    /// A vector.
+    #[inline(always)]
+    pub(crate) fn get(&self, n: usize) -> DVec3 {
+        match self.axes {
+            Axes::Space => DVec3::from_array(self.values.as_chunks().0[n]),
+            Axes::Plane => {
+                let [x, y] = self.values.as_chunks().0[n];
+                DVec3::new(x, y, 0.0)
+            }
+            Axes::Normal => DVec3::new(0.0, 0.0, self.values[n]),
+        }
+    }
+
+    /// How many there are.
+    pub(crate) const fn len(&self) -> usize {
+        self.values.len() / self.axes.width()
+    }
+
+    /// Those of some slots.
+    pub(crate) fn part(&self, slots: Range<usize>) -> Self {
+        let width = self.axes.width();
+        let values = &self.values[width * slots.start..width * slots.end];
+        Self { values, ..*self }
+    }
+
+    /// Velocities, forces or places of `count` bodies, for loops. If `PLANAR`, they are in the plane z = 0.
+    #[inline(always)]
+    pub(crate) fn polar<const PLANAR: bool>(&self, count: usize) -> Polar<'a, PLANAR> {
+        let (plane, space): (&[[f64; 2]], &[[f64; 3]]) = if PLANAR {
+            (self.values.as_chunks().0, &[])
+        } else {
+            (&[], self.values.as_chunks().0)
+        };
+        Polar {
+            plane: &plane[..if PLANAR { count } else { 0 }],
+            space: &space[..if PLANAR { 0 } else { count }],
+        }
+    }
+
+    /// Spins or torques of `count` bodies, for loops. If `PLANAR`, they turn in that plane.
+    #[inline(always)]
+    pub(crate) fn axial<const PLANAR: bool>(&self, count: usize) -> Axial<'a, PLANAR> {
+        let (plane, space): (&[f64], &[[f64; 3]]) = if PLANAR {
+            (self.values, &[])
+        } else {
+            (&[], self.values.as_chunks().0)
+        };
+        Axial {
+            plane: &plane[..if PLANAR { count } else { 0 }],
+            space: &space[..if PLANAR { 0 } else { count }],
+        }
+    }
+}
+
+/// Velocities, forces or places of which the compiler knows how many components they have.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Polar<'a, const PLANAR: bool> {
+    plane: &'a [[f64; 2]],
+    space: &'a [[f64; 3]],
+}
+
+impl<const PLANAR: bool> Polar<'_, PLANAR> {
+    /// A vector.
+    #[inline(always)]
+    pub(crate) fn get(&self, n: usize) -> DVec3 {
+        if PLANAR {
+            let [x, y] = self.plane[n];
+            DVec3::new(x, y, 0.0)
+        } else {
+            DVec3::from_array(self.space[n])
+        }
+    }
+}
+
+/// Spins or torques of which the compiler knows how many components they have.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Axial<'a, const PLANAR: bool> {
+    plane: &'a [f64],
+    space: &'a [[f64; 3]],
+}
+
+impl<const PLANAR: bool> Axial<'_, PLANAR> {
+    /// A vector.
+    #[inline(always)]
+    pub(crate) fn get(&self, n: usize) -> DVec3 {
+        if PLANAR {
+            DVec3::new(0.0, 0.0, self.plane[n])
+        } else {
+            DVec3::from_array(self.space[n])
+        }
+    }
 }
 
 /// A velocity, force or direction. If `PLANAR`, it is in the plane z = 0, and the compiler sees so.
@@ -165,15 +263,6 @@ pub(crate) const fn axial<const PLANAR: bool>(vector: DVec3) -> DVec3 {
     } else {
         vector
     }
-}
-
-/// The same parts of all components.
-#[inline(always)]
-pub(crate) fn part<'a>(
-    components: &Components<'a>,
-    slots: std::ops::Range<usize>,
-) -> Components<'a> {
-    components.map(|component| component.get(slots.clone()).unwrap_or(&[]))
 }
 
 #[cfg(test)]

@@ -103,7 +103,7 @@ impl<'l, L: ContactLaw> Collision<'l, L> {
             let velocity = self.velocity.get(0) - self.velocity.get(1) + turning;
             Contact::new(normal, reach + other - apart.length(), velocity)
         };
-        contact.spins = [self.spin.get(0), self.spin.get(1)];
+        contact.spins = both(&self.spin);
         contact.elapsed = elapsed;
         contact
     }
@@ -152,6 +152,11 @@ impl<'l, L: ContactLaw> Collision<'l, L> {
     }
 }
 
+/// The vectors of both bodies; that of a wall is zero.
+fn both(column: &Vectors) -> [DVec3; 2] {
+    [0, 1].map(|n| column.iter().nth(n).unwrap_or_default())
+}
+
 impl<L: ContactLaw> System for Collision<'_, L> {
     fn motions(&mut self) -> Motions<'_> {
         Motions {
@@ -175,7 +180,7 @@ impl<L: ContactLaw> System for Collision<'_, L> {
 
     fn evaluate(&mut self, elapsed: f64, stage: Stage) -> Result<(), StepError> {
         let contact = self.contact(elapsed);
-        let [ahead, behind] = [0, 1].map(|n| self.acceleration.get(n));
+        let [ahead, behind] = both(&self.acceleration);
         let edge = Edge::new(self.time_step, (ahead - behind).dot(contact.normal));
         self.acceleration.flat_mut().fill(0.0);
         self.spin_rate.flat_mut().fill(0.0);

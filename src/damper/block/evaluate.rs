@@ -14,7 +14,6 @@ use crate::damper::Partner;
 use crate::damper::candidates::Candidates;
 use crate::damper::chunk::{CHUNK, Chunk};
 use crate::damper::scene::{Scene, WallLoad};
-use crate::damper::vectors::vector;
 use crate::law::ContactLaw;
 use crate::observer::Observer;
 
@@ -24,16 +23,12 @@ impl<L: ContactLaw> Block<L> {
     pub(crate) fn evaluate<C: Cavity, O: Observer, const END: bool>(
         &mut self,
         scene: &Scene<'_, C, L>,
-        mut force: [&mut [f64]; 3],
-        mut torque: [&mut [f64]; 3],
+        force: &mut [f64],
+        torque: &mut [f64],
         observer: &mut O,
     ) {
-        for component in &mut force {
-            component.fill(0.0);
-        }
-        for component in &mut torque {
-            component.fill(0.0);
-        }
+        force.fill(0.0);
+        torque.fill(0.0);
         self.loads.fill(WallLoad::default());
         self.parcels.clear();
         self.forget();
@@ -103,7 +98,7 @@ impl<L: ContactLaw> Block<L> {
                 let slot = *slot as usize;
                 sums.add(slot - base, push, turn);
                 let room = scene.room_of_wall(*wall);
-                let place = vector(&scene.position, slot) - room.motion.position;
+                let place = scene.position.get(slot) - room.motion.position;
                 self.loads[*wall as usize].react(push, turn, place);
                 if chunk.overlap(n) > scene.radius[slot] {
                     let partner = Partner::Wall(wall - room.first_wall);
@@ -121,31 +116,45 @@ impl<L: ContactLaw> Block<L> {
 /// Where the forces and torques on the particles of a block are summed up. With `PLANAR` forces have
 /// no z, and torques nothing else.
 struct Sums<'a, const PLANAR: bool> {
-    force: [&'a mut [f64]; 3],
-    torque: [&'a mut [f64]; 3],
+    plane: (&'a mut [[f64; 2]], &'a mut [f64]),
+    space: (&'a mut [[f64; 3]], &'a mut [[f64; 3]]),
 }
 
 impl<'a, const PLANAR: bool> Sums<'a, PLANAR> {
-    fn new(force: [&'a mut [f64]; 3], torque: [&'a mut [f64]; 3]) -> Self {
-        // Columns of one length, so that one comparison stands for all their bounds.
-        let count = force[0].len();
-        let even = |column: &'a mut [f64], used: bool| &mut column[..if used { count } else { 0 }];
-        let [x, y, z] = force;
-        let force = [even(x, true), even(y, true), even(z, !PLANAR)];
-        let [x, y, z] = torque;
-        let torque = [even(x, !PLANAR), even(y, !PLANAR), even(z, true)];
-        Self { force, torque }
+    fn new(force: &'a mut [f64], torque: &'a mut [f64]) -> Self {
+        // Columns of one length, so that one comparison stands for both bounds.
+        if PLANAR {
+            let (force, _) = force.as_chunks_mut();
+            let torque = &mut torque[..force.len()];
+            Self {
+                plane: (force, torque),
+                space: (&mut [], &mut []),
+            }
+        } else {
+            let (force, _) = force.as_chunks_mut();
+            let (torque, _) = torque.as_chunks_mut();
+            let torque = &mut torque[..force.len()];
+            Self {
+                plane: (&mut [], &mut []),
+                space: (force, torque),
+            }
+        }
     }
 
     #[inline(always)]
     fn add(&mut self, n: usize, force: DVec3, torque: DVec3) {
-        self.force[0][n] += force.x;
-        self.force[1][n] += force.y;
-        self.torque[2][n] += torque.z;
-        if !PLANAR {
-            self.force[2][n] += force.z;
-            self.torque[0][n] += torque.x;
-            self.torque[1][n] += torque.y;
+        if PLANAR {
+            let (forces, torques) = &mut self.plane;
+            forces[n][0] += force.x;
+            forces[n][1] += force.y;
+            torques[n] += torque.z;
+        } else {
+            let (forces, torques) = &mut self.space;
+            let add = |sum: &mut [f64; 3], vector: DVec3| {
+                *sum = (DVec3::from_array(*sum) + vector).to_array();
+            };
+            add(&mut forces[n], force);
+            add(&mut torques[n], torque);
         }
     }
 }
@@ -203,7 +212,7 @@ fn answer_walls<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
     let only = scene.coefficients.only_wall();
     chunk.answer::<false, END, PLANAR>(scene.law, only, kinds, scene.elapsed);
     if scene.law.has_edges() {
-        let acceleration = |n: usize| vector(&scene.acceleration, bodies[n][0] as usize);
+        let acceleration = |n: usize| scene.acceleration.get(bodies[n][0] as usize);
         chunk.mend_edges::<false, END>(scene.law, only, scene.moment(), acceleration);
     }
     if END {
@@ -217,6 +226,6 @@ pub(super) fn acceleration_of_pair<C: Cavity, L: ContactLaw>(
     scene: &Scene<'_, C, L>,
     bodies: [u32; 2],
 ) -> DVec3 {
-    let [first, second] = bodies.map(|slot| vector(&scene.acceleration, slot as usize));
+    let [first, second] = bodies.map(|slot| scene.acceleration.get(slot as usize));
     first - second
 }

@@ -10,7 +10,7 @@ use crate::contact::{Contact, ContactForce};
 use crate::damper::candidates::{Candidates, Touch, make_room};
 use crate::damper::particles::Particles;
 use crate::damper::scene::{Scene, World, at_surface, meeting, resolve};
-use crate::damper::vectors::{Vectors, axial, polar, vector};
+use crate::damper::vectors::{axial, polar};
 use crate::law::ContactLaw;
 
 /// A particle between impulses.
@@ -226,9 +226,7 @@ impl<L: ContactLaw> Joints<L> {
     ) -> f64 {
         let [i, j] = touch.bodies.map(|slot| slot as usize);
         let radii = [scene.radius[i], scene.radius[j]];
-        let [x, y, z] = scene.position;
-        let z = if scene.planar { 0.0 } else { z[i] - z[j] };
-        let towards = DVec3::new(x[i] - x[j], y[i] - y[j], z);
+        let towards = scene.position.get(i) - scene.position.get(j);
         let (normal, overlap) = meeting::<false>(towards, radii);
         let remembered = list.touched(touch.place, scene.stamp);
         self.pairs.push(Joint {
@@ -257,7 +255,7 @@ impl<L: ContactLaw> Joints<L> {
         touch: Touch,
     ) -> f64 {
         let (slot, wall) = (touch.bodies[0] as usize, touch.bodies[1]);
-        let point = scene.wall_point(wall, vector(&scene.position, slot));
+        let point = scene.wall_point(wall, scene.position.get(slot));
         let radius = scene.radius[slot];
         let overlap = radius - point.distance;
         let remembered = list.touched(touch.place, scene.stamp);
@@ -276,15 +274,15 @@ impl<L: ContactLaw> Joints<L> {
     /// Takes over the velocities at the start of the step.
     pub(super) fn start(&mut self, particles: &Particles, time_step: f64) {
         let count = particles.len();
-        let [velocity, spin] = [&particles.velocity, &particles.spin].map(Vectors::components);
+        let (velocity, spin) = (particles.velocity.rows(), particles.spin.rows());
         let inverse = (
             &particles.inverse_mass[..count],
             &particles.inverse_inertia[..count],
         );
         self.starts.clear();
         self.starts.extend((0..count).map(|slot| Mover {
-            velocity: vector(&velocity, slot),
-            spin: vector(&spin, slot),
+            velocity: velocity.get(slot),
+            spin: spin.get(slot),
             gain: inverse.0[slot] * time_step,
             turn: inverse.1[slot] * time_step,
         }));
