@@ -94,8 +94,7 @@ pub(crate) struct Scene<'a, C, L: ContactLaw> {
     pub(crate) position: Rows<'a>,
     pub(crate) velocity: Rows<'a>,
     pub(crate) spin: Rows<'a>,
-    /// As they were evaluated last, if the law has edges to be mended; else empty.
-    pub(crate) acceleration: Rows<'a>,
+    acceleration: Rows<'a>,
     pub(crate) radius: &'a [f64],
     pub(crate) species: &'a [u32],
     pub(crate) number: &'a [u32],
@@ -184,6 +183,17 @@ impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
             velocity: self.velocity.get(slot),
             spin: self.spin.get(slot),
             radius: self.radius[slot],
+        }
+    }
+
+    /// How the centre of a particle was accelerated when forces were evaluated last, in m/s^2; zero if
+    /// the law has no edges to be mended.
+    #[inline(always)]
+    pub(crate) fn acceleration(&self, slot: usize) -> DVec3 {
+        if self.law.has_edges() {
+            self.acceleration.get(slot)
+        } else {
+            DVec3::ZERO
         }
     }
 

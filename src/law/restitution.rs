@@ -133,7 +133,7 @@ impl ContactLaw for RestitutionImpulse {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn carry(
         &self,
         own: &Self::Coefficients,

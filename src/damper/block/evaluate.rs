@@ -212,7 +212,7 @@ fn answer_walls<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
     let only = scene.coefficients.only_wall();
     chunk.answer::<false, END, PLANAR>(scene.law, only, kinds, scene.elapsed);
     if scene.law.has_edges() {
-        let acceleration = |n: usize| scene.acceleration.get(bodies[n][0] as usize);
+        let acceleration = |n: usize| scene.acceleration(bodies[n][0] as usize);
         chunk.mend_edges::<false, END>(scene.law, only, scene.moment(), acceleration);
     }
     if END {
@@ -226,6 +226,6 @@ pub(super) fn acceleration_of_pair<C: Cavity, L: ContactLaw>(
     scene: &Scene<'_, C, L>,
     bodies: [u32; 2],
 ) -> DVec3 {
-    let [first, second] = bodies.map(|slot| scene.acceleration.get(slot as usize));
+    let [first, second] = bodies.map(|slot| scene.acceleration(slot as usize));
     first - second
 }

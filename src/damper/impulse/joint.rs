@@ -87,17 +87,22 @@ impl<M> Joint<M> {
         self.contact::<PLANAR>(normal, velocity, spins, surroundings)
     }
 
-    /// The contact of a particle with a wall.
+    /// The contact of a particle with a wall. With `PLANAR` all motion is in the plane z = 0.
     #[inline(always)]
-    pub(super) fn at_wall(&self, movers: &[Mover], containers: &[Container]) -> Contact {
+    pub(super) fn at_wall<const PLANAR: bool>(
+        &self,
+        movers: &[Mover],
+        containers: &[Container],
+    ) -> Contact {
         let mover = &movers[self.bodies[0] as usize];
         let container = &containers[self.cavity as usize];
-        let velocity = mover.velocity - container.velocity;
-        let spins = [mover.spin, DVec3::ZERO];
+        let velocity = polar::<PLANAR>(mover.velocity) - polar::<PLANAR>(container.velocity);
+        let spins = [axial::<PLANAR>(mover.spin), DVec3::ZERO];
+        let normal = polar::<PLANAR>(self.normal);
         let surroundings = &container.surroundings;
-        let contact = self.contact::<false>(self.normal, velocity, spins, surroundings);
+        let contact = self.contact::<PLANAR>(normal, velocity, spins, surroundings);
         Contact {
-            velocity_ahead: contact.velocity + surroundings.ahead,
+            velocity_ahead: contact.velocity + polar::<PLANAR>(surroundings.ahead),
             mobility: surroundings.mobility,
             ..contact
         }

@@ -45,22 +45,26 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// then all walls, each with the velocities that those before it left. Returns the largest speed in
     /// m/s along the normal that particles were given relative to each other, or to a wall.
     pub(super) fn strike_in_turn(&mut self, round: &Round) -> f64 {
-        let world = &self.world;
-        let mut largest = if world.planar() {
-            self.joints.strike_pairs::<C, true>(world, round)
+        if self.world.planar() {
+            self.strike_all::<true>(round)
         } else {
-            self.joints.strike_pairs::<C, false>(world, round)
-        };
+            self.strike_all::<false>(round)
+        }
+    }
+
+    fn strike_all<const PLANAR: bool>(&mut self, round: &Round) -> f64 {
+        let mut largest = self.joints.strike_pairs::<C, PLANAR>(&self.world, round);
         for number in 0..self.joints.walls.len() {
-            largest = larger(largest, self.strike_wall(number, round));
+            largest = larger(largest, self.strike_wall::<PLANAR>(number, round));
         }
         largest
     }
 
-    fn strike_wall(&mut self, number: usize, round: &Round) -> f64 {
+    #[inline(always)]
+    fn strike_wall<const PLANAR: bool>(&mut self, number: usize, round: &Round) -> f64 {
         let joints = &mut self.joints;
         let joint = &mut joints.walls[number];
-        let contact = joint.at_wall(&joints.movers, &joints.containers);
+        let contact = joint.at_wall::<PLANAR>(&joints.movers, &joints.containers);
         let slot = joint.bodies[0] as usize;
         let kind = self.world.coefficients.wall(self.particles.species[slot]);
         let answer = self.world.law.strike(kind, &contact, &mut joint.memory);
@@ -68,7 +72,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             return 0.0;
         }
         joint.remembers = true;
-        self.push_wall(number, &answer);
+        self.push_wall::<PLANAR>(number, &answer);
         self.move_containers();
         let joints = &mut self.joints;
         let speed = answer.normal.abs() * joints.movers[slot].gain;
@@ -79,13 +83,14 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     }
 
     /// Gives a particle and a wall what their joint answers.
-    pub(super) fn push_wall(&mut self, number: usize, answer: &ContactForce) {
+    #[inline(always)]
+    pub(super) fn push_wall<const PLANAR: bool>(&mut self, number: usize, answer: &ContactForce) {
         let joints = &mut self.joints;
         let joint = &joints.walls[number];
-        let (force, [torque, _]) = joint.resolve::<false>(answer);
+        let (force, [torque, _]) = joint.resolve::<PLANAR>(answer);
         let (slot, wall) = (joint.bodies[0] as usize, joint.bodies[1] as usize);
         let cavity = joint.cavity as usize;
-        joints.movers[slot].take::<false>(force, torque);
+        joints.movers[slot].take::<PLANAR>(force, torque);
         let container = &joints.containers[cavity];
         let impulse = -force * container.surroundings.time_step;
         self.mount.strike(cavity, impulse, &mut joints.rates);

@@ -36,10 +36,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             let cavity = joint.cavity as usize;
             let room = &self.world.rooms[cavity];
             let yielded = joints.containers[cavity].velocity - room.motion.velocity;
-            let mut before = joint.at_wall(&joints.starts, &joints.containers);
+            let mut before = joint.at_wall::<false>(&joints.starts, &joints.containers);
             before.velocity += yielded;
             before.velocity_ahead += yielded;
-            let after = joint.at_wall(&joints.movers, &joints.containers);
+            let after = joint.at_wall::<false>(&joints.movers, &joints.containers);
             observer.contact(&ContactEvent {
                 particle: number(slot),
                 partner: Partner::Wall(wall - room.first_wall),

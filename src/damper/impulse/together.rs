@@ -41,7 +41,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             if !joint.remembers {
                 continue;
             }
-            let contact = joint.at_wall(&joints.starts, &joints.containers);
+            let contact = joint.at_wall::<false>(&joints.starts, &joints.containers);
             let species = self.particles.species[joint.bodies[0] as usize];
             let kind = self.world.coefficients.wall(species);
             let answer = self
@@ -50,7 +50,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 .carry(kind, &contact, &mut joint.memory, part);
             if joint.goes_on(&answer) {
                 any = true;
-                self.push_wall(number, &answer);
+                self.push_wall::<false>(number, &answer);
             }
         }
         self.move_containers();
@@ -87,11 +87,11 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         for number in 0..self.joints.walls.len() {
             let joints = &self.joints;
             let joint = &joints.walls[number];
-            let contact = joint.at_wall(&joints.starts, &joints.containers);
+            let contact = joint.at_wall::<false>(&joints.starts, &joints.containers);
             let species = self.particles.species[joint.bodies[0] as usize];
             let kind = self.world.coefficients.wall(species);
             let answer = self.world.law.force(kind, &contact, &joint.memory);
-            self.push_wall(number, &answer);
+            self.push_wall::<false>(number, &answer);
         }
         self.move_containers();
         if !Candidates::<L>::REMEMBERS {
@@ -106,7 +106,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             joint.remembers = true;
         }
         for joint in &mut joints.walls {
-            let contact = joint.at_wall(&joints.movers, &joints.containers);
+            let contact = joint.at_wall::<false>(&joints.movers, &joints.containers);
             let kind = world
                 .coefficients
                 .wall(self.particles.species[joint.bodies[0] as usize]);

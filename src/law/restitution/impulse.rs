@@ -166,6 +166,7 @@ impl RestitutionCoefficients {
     }
 
     /// An impact.
+    #[inline(always)]
     pub(super) fn rebound(&self, contact: &Contact, held: &mut RestingForce) -> ContactForce {
         let normal = contact.normal;
         let approach = contact.approach_speed();
@@ -225,7 +226,7 @@ impl RestitutionCoefficients {
     }
 
     /// Part of what bodies gave each other in the step before, if they are still at rest.
-    #[inline]
+    #[inline(always)]
     pub(super) fn carry(
         &self,
         contact: &Contact,
@@ -292,6 +293,7 @@ impl RestitutionCoefficients {
     /// Tangential force and couple, `before` included, that end slip and rolling (relative spin)
     /// together, as far as friction and rolling resistance reach under the force `normal` (N).
     /// `turning` is slip per unit tangential force over the step in m/s/N.
+    #[inline(always)]
     fn roll(
         &self,
         contact: &Contact,
