@@ -83,7 +83,7 @@ fn main() -> Result<(), Failure> {
     );
     let strict = fall(strict, RungeKutta4::default(), 2e-5, &options)?;
     let approximate = RestitutionImpulse::new(acrylic);
-    let approximate = fall(approximate, VelocityVerlet::default(), 1e-4, &options)?;
+    let approximate = fall(approximate, VelocityVerlet, 1e-4, &options)?;
 
     let directory = output::directory("rebound")?;
     let traces = [("hertz-tsuji", &strict), ("restitution", &approximate)];

@@ -115,7 +115,7 @@ fn main() -> Result<(), Failure> {
     };
     let approximate = || {
         let law = RestitutionImpulse::new(acrylic);
-        (law, grid.clone(), VelocityVerlet::default())
+        (law, grid.clone(), VelocityVerlet)
     };
     let names = [
         "strict, all pairs, dt 2e-5 s",

@@ -19,6 +19,8 @@ pub struct Columns<'a> {
     pub velocity: &'a mut [f64],
     /// Accelerations, as the last evaluation left them.
     pub acceleration: &'a [f64],
+    /// Accelerations, as the evaluation before it left them.
+    pub previous: &'a [f64],
 }
 
 /// Everything that moves.
@@ -30,6 +32,14 @@ pub struct Motions<'a> {
     pub rotation: Columns<'a>,
     /// Coordinates of the mount.
     pub mount: Columns<'a>,
+}
+
+impl<'a> Motions<'a> {
+    /// All groups of coordinates.
+    #[must_use]
+    pub fn all(self) -> [Columns<'a>; 3] {
+        [self.translation, self.rotation, self.mount]
+    }
 }
 
 /// Which evaluation of a step is asked for.

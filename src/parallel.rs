@@ -81,13 +81,9 @@ pub(crate) fn for_each<T: Send, P: Send>(
     }
 }
 
-/// Changes each entry of a column by the number in the same place of another.
-pub(crate) fn update<T: Send>(
-    values: &mut [T],
-    by: &[f64],
-    change: impl Fn(&mut T, f64) + Sync + Copy,
-) {
-    let work = |values: &mut [T], by: &[f64]| {
+/// Changes each number of a column by the ones in the same place of another.
+pub(crate) fn update(values: &mut [f64], by: &[f64], change: impl Fn(&mut f64, f64) + Sync + Copy) {
+    let work = |values: &mut [f64], by: &[f64]| {
         for (value, by) in values.iter_mut().zip(by) {
             change(value, *by);
         }

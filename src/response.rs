@@ -80,7 +80,7 @@ impl<L> ResponseCurve<L> {
             law,
             cavity: Slot::paper(),
             detector: Skin::default(),
-            integrator: VelocityVerlet::default(),
+            integrator: VelocityVerlet,
             oscillator: SingleDof::paper(),
             force: 0.25,
             particle: Particle {

@@ -203,7 +203,7 @@ fn detectors_agree_under_the_strict_law() {
     all_agree(
         Slot::paper(),
         tsuji(),
-        VelocityVerlet::default(),
+        VelocityVerlet,
         &planar_bed(12),
         2e-5,
         100_000,
@@ -225,14 +225,7 @@ fn detectors_agree_under_the_strict_law_with_runge_kutta() {
 #[test]
 fn detectors_agree_under_the_law_with_memory() {
     let bed = mixed_bed(&Slot::paper(), 4);
-    all_agree(
-        Slot::paper(),
-        mindlin(),
-        VelocityVerlet::default(),
-        &bed,
-        8e-6,
-        30_000,
-    );
+    all_agree(Slot::paper(), mindlin(), VelocityVerlet, &bed, 8e-6, 30_000);
 }
 
 #[test]
@@ -240,7 +233,7 @@ fn detectors_agree_under_impulses() {
     all_agree(
         Slot::paper(),
         impulse(),
-        VelocityVerlet::default(),
+        VelocityVerlet,
         &planar_bed(12),
         1e-4,
         100_000,
@@ -251,17 +244,10 @@ fn detectors_agree_under_impulses() {
 fn detectors_agree_in_space() {
     let room = Cuboid::new(dvec3(0.03, 0.05, 0.03)).unwrap();
     let bed = mixed_bed(&room, 4);
-    all_agree(room, tsuji(), VelocityVerlet::default(), &bed, 8e-6, 20_000);
+    all_agree(room, tsuji(), VelocityVerlet, &bed, 8e-6, 20_000);
     let room = Cylinder::new(0.02, 0.05).unwrap();
     let bed = mixed_bed(&room, 4);
-    all_agree(
-        room,
-        impulse(),
-        VelocityVerlet::default(),
-        &bed,
-        1e-4,
-        20_000,
-    );
+    all_agree(room, impulse(), VelocityVerlet, &bed, 1e-4, 20_000);
 }
 
 /// The long form: a bed that fills a third of the paper's container.
@@ -269,14 +255,7 @@ fn detectors_agree_in_space() {
 #[ignore = "takes minutes"]
 fn detectors_agree_on_a_large_bed() {
     let bed = planar_bed(40);
-    all_agree(
-        Slot::paper(),
-        tsuji(),
-        VelocityVerlet::default(),
-        &bed,
-        2e-5,
-        100_000,
-    );
+    all_agree(Slot::paper(), tsuji(), VelocityVerlet, &bed, 2e-5, 100_000);
     all_agree(
         Slot::paper(),
         tsuji(),
@@ -288,7 +267,7 @@ fn detectors_agree_on_a_large_bed() {
     all_agree(
         Slot::paper(),
         mindlin(),
-        VelocityVerlet::default(),
+        VelocityVerlet,
         &bed,
         1.5e-5,
         100_000,
@@ -296,7 +275,7 @@ fn detectors_agree_on_a_large_bed() {
     all_agree(
         Slot::paper(),
         impulse(),
-        VelocityVerlet::default(),
+        VelocityVerlet,
         &bed,
         1e-4,
         100_000,
@@ -342,14 +321,14 @@ where
 
 #[test]
 fn a_restored_damper_goes_on_to_the_same_bits() {
-    restores(tsuji(), VelocityVerlet::default(), 8e-6);
+    restores(tsuji(), VelocityVerlet, 8e-6);
     restores(tsuji(), RungeKutta4::default(), 8e-6);
-    restores(mindlin(), VelocityVerlet::default(), 8e-6);
+    restores(mindlin(), VelocityVerlet, 8e-6);
     restores(mindlin(), RungeKutta4::default(), 8e-6);
-    restores(impulse(), VelocityVerlet::default(), 1e-4);
+    restores(impulse(), VelocityVerlet, 1e-4);
     restores(
         RestitutionImpulse::new(Material::acrylic()).friction(false),
-        VelocityVerlet::default(),
+        VelocityVerlet,
         1e-4,
     );
 }
@@ -399,7 +378,7 @@ fn the_order_in_which_particles_are_given_does_not_decide_who_is_who() {
     let mut damper = shaken(
         Slot::paper(),
         tsuji(),
-        VelocityVerlet::default(),
+        VelocityVerlet,
         &bed,
         2e-5,
         Box::new(AllPairs),
@@ -443,10 +422,10 @@ fn values_are_those_of_the_last_release() {
         format!("{:016x}", digest(&damper).0)
     }
     let found = [
-        run(tsuji(), VelocityVerlet::default(), 1e-5),
+        run(tsuji(), VelocityVerlet, 1e-5),
         run(tsuji(), RungeKutta4::default(), 1e-5),
-        run(mindlin(), VelocityVerlet::default(), 1e-5),
-        run(impulse(), VelocityVerlet::default(), 1e-4),
+        run(mindlin(), VelocityVerlet, 1e-5),
+        run(impulse(), VelocityVerlet, 1e-4),
     ];
     assert_eq!(found, GOLDEN);
 }

@@ -439,7 +439,7 @@ fn every_part_can_be_borrowed_or_boxed() {
     let mut sweep = SweepAndPrune::default();
     let mut oscillator = SingleDof::paper();
     let mount: &mut dyn Mount = &mut oscillator;
-    let mut verlet = VelocityVerlet::default();
+    let mut verlet = VelocityVerlet;
     let borrowed = Damper::builder(room, &law)
         .mount(mount)
         .detectors([&mut sweep])

@@ -45,9 +45,9 @@ fn acrylic() -> Material {
 
 #[test]
 fn the_account_of_the_strict_laws_closes_and_no_loss_is_negative() {
-    let (verlet, classical) = (VelocityVerlet::default(), RungeKutta4::default());
+    let (verlet, classical) = (VelocityVerlet, RungeKutta4::default());
     for ledger in [
-        run(HertzTsuji::new(acrylic()), verlet.clone(), 20, 2e-5, 2.0),
+        run(HertzTsuji::new(acrylic()), verlet, 20, 2e-5, 2.0),
         run(HertzTsuji::new(acrylic()), classical, 20, 2e-5, 2.0),
         run(HertzMindlin::new(acrylic()), verlet, 20, 2e-5, 2.0),
     ] {
@@ -71,7 +71,7 @@ fn the_account_of_the_strict_laws_closes_and_no_loss_is_negative() {
 #[test]
 fn the_account_of_the_impulse_law_closes() {
     let law = RestitutionImpulse::new(acrylic());
-    let ledger = run(law, VelocityVerlet::default(), 20, 1e-4, 4.0);
+    let ledger = run(law, VelocityVerlet, 20, 1e-4, 4.0);
     assert!(ledger.residual().abs() < 1e-5 * ledger.input());
     assert!(ledger.losses().pair_normal > 0.0 && ledger.losses().wall_friction > 0.0);
 }
@@ -81,7 +81,7 @@ fn the_account_of_the_impulse_law_closes() {
 fn what_the_time_step_takes_falls_with_its_square() {
     let loss = |dt| {
         let law = HertzTsuji::new(acrylic());
-        let ledger = run(law, VelocityVerlet::default(), 20, dt, 4.0);
+        let ledger = run(law, VelocityVerlet, 20, dt, 4.0);
         ledger.integration_loss() / ledger.losses().total()
     };
     let (coarse, fine) = (loss(2e-5), loss(5e-6));
@@ -115,15 +115,15 @@ fn over_forty_periods_at_resonance_the_account_closes() {
     let mut taken = [[0.0; 4]; 3];
     for (n, dt) in steps.into_iter().enumerate() {
         let law = HertzTsuji::new(acrylic());
-        let ledger = run(law.clone(), VelocityVerlet::default(), 20, dt, 40.0);
+        let ledger = run(law.clone(), VelocityVerlet, 20, dt, 40.0);
         taken[0][n] = show("HertzTsuji, Verlet", dt, &ledger);
         let ledger = run(law, RungeKutta4::default(), 20, dt, 40.0);
         taken[1][n] = show("HertzTsuji, RungeKutta4", dt, &ledger);
         let law = HertzMindlin::new(acrylic());
-        let ledger = run(law, VelocityVerlet::default(), 20, dt, 40.0);
+        let ledger = run(law, VelocityVerlet, 20, dt, 40.0);
         taken[2][n] = show("HertzMindlin, Verlet", dt, &ledger);
         let law = RestitutionImpulse::new(acrylic());
-        let ledger = run(law, VelocityVerlet::default(), 20, 5.0 * dt, 40.0);
+        let ledger = run(law, VelocityVerlet, 20, 5.0 * dt, 40.0);
         let input = ledger.input();
         assert!(ledger.residual().abs() < 1e-5 * input);
         show("RestitutionImpulse", 5.0 * dt, &ledger);

@@ -75,12 +75,12 @@ fn keeps_momentum<L: ContactLaw, I: Integrator>(
 #[test]
 fn momentum_of_container_and_particles_is_kept_to_rounding() {
     let strict = || HertzTsuji::new(Material::acrylic());
-    keeps_momentum(strict(), VelocityVerlet::default(), 2e-5, 20_000);
+    keeps_momentum(strict(), VelocityVerlet, 2e-5, 20_000);
     keeps_momentum(strict(), RungeKutta4::default(), 2e-5, 20_000);
     let mindlin = HertzMindlin::new(Material::acrylic());
-    keeps_momentum(mindlin, VelocityVerlet::default(), 1.5e-5, 20_000);
+    keeps_momentum(mindlin, VelocityVerlet, 1.5e-5, 20_000);
     let impulse = || RestitutionImpulse::new(Material::acrylic());
-    keeps_momentum(impulse(), VelocityVerlet::default(), 1e-4, 5_000);
+    keeps_momentum(impulse(), VelocityVerlet, 1e-4, 5_000);
     keeps_momentum(impulse(), RungeKutta4::default(), 1e-4, 5_000);
 }
 
@@ -154,10 +154,10 @@ fn impulse_is_the_change_of_momentum<L: ContactLaw, I: Integrator>(law: L, integ
 #[test]
 fn the_impulse_on_the_container_is_the_momentum_that_the_particles_lose() {
     let strict = || HertzTsuji::new(Material::acrylic());
-    impulse_is_the_change_of_momentum(strict(), VelocityVerlet::default(), 2e-5);
+    impulse_is_the_change_of_momentum(strict(), VelocityVerlet, 2e-5);
     impulse_is_the_change_of_momentum(strict(), RungeKutta4::default(), 2e-5);
     let impulse = || RestitutionImpulse::new(Material::acrylic());
-    impulse_is_the_change_of_momentum(impulse(), VelocityVerlet::default(), 1e-4);
+    impulse_is_the_change_of_momentum(impulse(), VelocityVerlet, 1e-4);
     impulse_is_the_change_of_momentum(impulse(), RungeKutta4::default(), 1e-4);
 }
 

@@ -143,14 +143,14 @@ fn no_step_allocates_once_warm() {
     let acrylic = Material::acrylic;
     for (name, detector) in detectors() {
         let law = HertzTsuji::new(acrylic());
-        shaken(name, law, 2e-5, VelocityVerlet::default(), detector);
+        shaken(name, law, 2e-5, VelocityVerlet, detector);
     }
     let linked = || -> Box<dyn Detector> { Box::new(Skin::<LinkedCells>::default()) };
     let law = HertzTsuji::new(acrylic());
     shaken("Runge-Kutta", law, 2e-5, RungeKutta4::default(), linked());
     for (name, detector) in detectors() {
         let law = HertzMindlin::new(acrylic());
-        shaken(name, law, 1.5e-5, VelocityVerlet::default(), detector);
+        shaken(name, law, 1.5e-5, VelocityVerlet, detector);
     }
     let law = HertzMindlin::new(acrylic());
     shaken(
@@ -162,7 +162,7 @@ fn no_step_allocates_once_warm() {
     );
     for (name, detector) in detectors() {
         let law = RestitutionImpulse::new(acrylic());
-        shaken(name, law, 1e-4, VelocityVerlet::default(), detector);
+        shaken(name, law, 1e-4, VelocityVerlet, detector);
     }
     let law = RestitutionImpulse::new(acrylic());
     shaken(

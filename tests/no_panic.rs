@@ -175,7 +175,7 @@ impl Case {
         if self.runge_kutta {
             self.build(law, RungeKutta4::default())
         } else {
-            self.build(law, VelocityVerlet::default())
+            self.build(law, VelocityVerlet)
         }
     }
 

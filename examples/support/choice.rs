@@ -85,7 +85,7 @@ pub(crate) enum AnyIntegrator {
 impl IntegratorName {
     pub(crate) fn integrator(self) -> AnyIntegrator {
         match self {
-            Self::Verlet => AnyIntegrator::Verlet(VelocityVerlet::default()),
+            Self::Verlet => AnyIntegrator::Verlet(VelocityVerlet),
             Self::Rk4 => AnyIntegrator::Rk4(Box::default()),
         }
     }

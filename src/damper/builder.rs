@@ -57,7 +57,7 @@ impl<C, L> Builder<C, L> {
             mount: Driven::default(),
             detectors: vec![Skin::default()],
             copy: Some(Clone::clone),
-            integrator: VelocityVerlet::default(),
+            integrator: VelocityVerlet,
             gravity: DVec3::NEG_Y * 9.81,
             time_step: None,
             wall_material: Materials::FIRST,
@@ -223,13 +223,14 @@ where
             Evaluation::EveryStage => Joints::default(),
             _ => Joints::with_room(room_for(particles.len())),
         };
+        let mount_state = MountState::new(&self.mount, rooms.len());
         let mut engine = Engine {
-            mount_state: MountState::new(&self.mount, rooms.len()),
+            scratch: Scratch::new(&particles, mount_state.acceleration.len()),
+            mount_state,
             detectors: self.detectors,
             mount: self.mount,
             gravity: self.gravity,
             blocks: Engine::<C, L, M, D>::make_blocks(particles.len(), walls),
-            scratch: Scratch::new(particles.len()),
             memories: Pool::new(memories(particles.len())),
             joints,
             particles,

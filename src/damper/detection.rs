@@ -103,9 +103,6 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             rows.copy_within(1..=slots.len(), 0);
             rows[slots.len()] = end;
         }
-        if scratch.reference.len() != count {
-            scratch.reference = self.particles.position.clone();
-        }
         scratch.reference.assign(scratch.local.iter().copied());
         Ok(())
     }

@@ -57,16 +57,28 @@ pub(crate) struct Scratch {
     pub(crate) local: Vec<DVec3>,
     /// Whether the candidates may still be used.
     pub(crate) listed: bool,
-    /// Where forces are summed up, in turns with the column of accelerations, if both are wanted.
-    force: Vectors,
+    /// Accelerations and angular accelerations as the evaluation before the last left them. The next
+    /// one sums up forces there, and they change places.
+    pub(crate) previous: [Vectors; 2],
+    /// The same of the mount's coordinates.
+    pub(crate) previous_of_mount: Vec<f64>,
 }
 
 impl Scratch {
-    /// Scratch for a bed of `particles`.
-    pub(crate) fn new(particles: usize) -> Self {
-        let mut scratch = Self::default();
-        scratch.proposals.reserve(room_for(particles));
-        scratch.partners.reserve(room_for(particles));
+    /// Scratch for a bed of `particles` and for `coordinates` of the mount.
+    pub(crate) fn new(particles: &Particles, coordinates: usize) -> Self {
+        let room = room_for(particles.len());
+        let mut scratch = Self {
+            reference: particles.position.clone(),
+            previous: [
+                particles.acceleration.clone(),
+                particles.angular_acceleration.clone(),
+            ],
+            previous_of_mount: vec![0.0; coordinates],
+            ..Self::default()
+        };
+        scratch.proposals.reserve(room);
+        scratch.partners.reserve(room);
         scratch
     }
 
@@ -75,7 +87,12 @@ impl Scratch {
         size_of::<DVec3>() * self.local.capacity()
             + size_of::<u32>() * (self.rows.capacity() + self.partners.capacity())
             + self.reference.reserved_bytes()
-            + self.force.reserved_bytes()
+            + self
+                .previous
+                .each_ref()
+                .map(Vectors::reserved_bytes)
+                .iter()
+                .sum::<usize>()
             + self.proposals.reserved_bytes()
     }
 }
@@ -172,28 +189,19 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         elapsed: f64,
         observer: &mut O,
     ) -> Result<(), StepError> {
-        // Forces are summed up where the accelerations will be. A law that mends the edges of
-        // contacts wants to see those of the last evaluation besides.
-        let mends = self.world.law.has_edges();
-        let mut force = if mends {
-            std::mem::take(&mut self.scratch.force)
-        } else {
-            std::mem::take(&mut self.particles.acceleration)
-        };
-        if force.len() != self.particles.len() {
-            force = self.particles.acceleration.clone();
-        }
-        let mut torque = std::mem::take(&mut self.particles.angular_acceleration);
+        let [mut force, mut torque] = std::mem::take(&mut self.scratch.previous);
         let scene = self.world.scene(&self.particles, elapsed);
         let widths = (force.width(), torque.width());
         let sums = (force.flat_mut(), torque.flat_mut());
+        let gravity = self.gravity;
+        let mut finite = true;
         if END && observer.wants_contacts() {
             let (mut forces, mut torques) = sums;
             for block in &mut self.blocks {
                 let (force, torque);
                 (force, forces) = forces.split_at_mut(widths.0 * block.slots.len());
                 (torque, torques) = torques.split_at_mut(widths.1 * block.slots.len());
-                block.evaluate::<C, O, END>(&scene, force, torque, observer);
+                finite &= block.evaluate::<C, O, END>(&scene, gravity, (force, torque), observer);
             }
         } else {
             let split = |(forces, torques), blocks: &[Block<L>]| {
@@ -202,24 +210,24 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let (torque, torques) = <[f64]>::split_at_mut(torques, widths.1 * count);
                 ((force, torque), (forces, torques))
             };
-            for_each(&mut self.blocks, sums, &split, &|block, (force, torque)| {
-                block.evaluate::<C, (), END>(&scene, force, torque, &mut ());
-                true
+            finite = for_each(&mut self.blocks, sums, &split, &|block, sums| {
+                block.evaluate::<C, (), END>(&scene, gravity, sums, &mut ())
             });
         }
         for parcel in self.blocks.iter().flat_map(|block| &block.parcels) {
             let slot = parcel.slot as usize;
-            force.set(slot, force.get(slot) + parcel.force);
-            torque.set(slot, torque.get(slot) + parcel.torque);
+            let gain = parcel.force * self.particles.inverse_mass[slot];
+            let turn = parcel.torque * self.particles.inverse_inertia[slot];
+            let (gain, turn) = (force.get(slot) + gain, torque.get(slot) + turn);
+            finite &= gain.is_finite() && turn.is_finite();
+            force.set(slot, gain);
+            torque.set(slot, turn);
         }
-        force.scale(&self.particles.inverse_mass, self.gravity);
-        torque.scale(&self.particles.inverse_inertia, DVec3::ZERO);
-        let finite = force.is_finite() && torque.is_finite();
-        let before = std::mem::replace(&mut self.particles.acceleration, force);
-        if mends {
-            self.scratch.force = before;
-        }
-        self.particles.angular_acceleration = torque;
+        let particles = &mut self.particles;
+        self.scratch.previous = [
+            std::mem::replace(&mut particles.acceleration, force),
+            std::mem::replace(&mut particles.angular_acceleration, torque),
+        ];
 
         self.wall_loads.fill(WallLoad::default());
         for block in &self.blocks {
@@ -317,6 +325,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 Stage::End => self.evaluate_contacts::<O, true>(elapsed, observer)?,
             }
         }
+        let previous = &mut self.scratch.previous_of_mount;
+        previous.copy_from_slice(&self.mount_state.acceleration);
         self.accelerate_mount(time);
         Ok(())
     }

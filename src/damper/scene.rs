@@ -60,6 +60,8 @@ impl<C: Cavity, L: ContactLaw> World<C, L> {
             spin: particles.spin.rows(),
             acceleration: particles.acceleration.rows(),
             radius: &particles.radius,
+            inverse_mass: &particles.inverse_mass,
+            inverse_inertia: &particles.inverse_inertia,
             species: &particles.species,
             number: &particles.number,
             elapsed,
@@ -94,8 +96,11 @@ pub(crate) struct Scene<'a, C, L: ContactLaw> {
     pub(crate) position: Rows<'a>,
     pub(crate) velocity: Rows<'a>,
     pub(crate) spin: Rows<'a>,
-    acceleration: Rows<'a>,
+    /// As they were evaluated last.
+    pub(crate) acceleration: Rows<'a>,
     pub(crate) radius: &'a [f64],
+    pub(crate) inverse_mass: &'a [f64],
+    pub(crate) inverse_inertia: &'a [f64],
     pub(crate) species: &'a [u32],
     pub(crate) number: &'a [u32],
     /// Time since memories were advanced, s.
@@ -183,17 +188,6 @@ impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
             velocity: self.velocity.get(slot),
             spin: self.spin.get(slot),
             radius: self.radius[slot],
-        }
-    }
-
-    /// How the centre of a particle was accelerated when forces were evaluated last, in m/s^2; zero if
-    /// the law has no edges to be mended.
-    #[inline(always)]
-    pub(crate) fn acceleration(&self, slot: usize) -> DVec3 {
-        if self.law.has_edges() {
-            self.acceleration.get(slot)
-        } else {
-            DVec3::ZERO
         }
     }
 

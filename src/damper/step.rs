@@ -29,21 +29,26 @@ where
     fn motions(&mut self) -> Motions<'_> {
         let particles = &mut self.engine.particles;
         let mount = &mut self.engine.mount_state;
+        let scratch = &self.engine.scratch;
+        let [previous, turning] = &scratch.previous;
         Motions {
             translation: Columns {
                 position: particles.position.flat_mut(),
                 velocity: particles.velocity.flat_mut(),
                 acceleration: particles.acceleration.flat(),
+                previous: previous.flat(),
             },
             rotation: Columns {
                 position: &mut [],
                 velocity: particles.spin.flat_mut(),
                 acceleration: particles.angular_acceleration.flat(),
+                previous: turning.flat(),
             },
             mount: Columns {
                 position: &mut mount.position,
                 velocity: &mut mount.velocity,
                 acceleration: &mount.acceleration,
+                previous: &scratch.previous_of_mount,
             },
         }
     }

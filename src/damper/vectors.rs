@@ -7,8 +7,6 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::parallel::update;
-
 /// Which components of the vectors of a column are not always zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Axes {
@@ -109,27 +107,9 @@ impl Vectors {
         self.assign(moved);
     }
 
-    /// Multiplies each vector by the factor in the same place, and adds `shift`.
-    pub(crate) fn scale(&mut self, factors: &[f64], shift: DVec3) {
-        let DVec3 { x, y, z } = shift;
-        match self.axes {
-            Axes::Space => scale(&mut self.values, factors, [x, y, z]),
-            Axes::Plane => scale(&mut self.values, factors, [x, y]),
-            Axes::Normal => scale(&mut self.values, factors, [z]),
-        }
-    }
-
     /// Whether all numbers are finite.
     pub(crate) fn is_finite(&self) -> bool {
-        // Zero times a number is zero, unless the number is not finite. Four sums, to be vectors.
-        let (fours, rest) = self.values.as_chunks::<4>();
-        let mut sums = [0.0; 4];
-        for four in fours {
-            for (sum, value) in sums.iter_mut().zip(four) {
-                *sum += value * 0.0;
-            }
-        }
-        sums.iter().chain(rest).all(|value| value.is_finite())
+        all_finite(&self.values)
     }
 
     /// Memory in bytes that the column has reserved.
@@ -138,13 +118,32 @@ impl Vectors {
     }
 }
 
-fn scale<const WIDTH: usize>(values: &mut [f64], factors: &[f64], shift: [f64; WIDTH]) {
-    let (vectors, _) = values.as_chunks_mut::<WIDTH>();
-    update(vectors, factors, |vector, factor| {
+/// Multiplies each vector by the factor in the same place, and adds `shift`. Returns whether all
+/// vectors are finite then.
+pub(crate) fn scale<const WIDTH: usize>(
+    vectors: &mut [[f64; WIDTH]],
+    factors: &[f64],
+    shift: [f64; WIDTH],
+) -> bool {
+    for (vector, factor) in vectors.iter_mut().zip(factors) {
         for (value, shift) in vector.iter_mut().zip(shift) {
             *value = *value * factor + shift;
         }
-    });
+    }
+    all_finite(vectors.as_flattened())
+}
+
+/// Whether all of `values` are finite.
+fn all_finite(values: &[f64]) -> bool {
+    // Zero times a number is zero, unless the number is not finite. Four sums, to be vectors.
+    let (fours, rest) = values.as_chunks::<4>();
+    let mut sums = [0.0; 4];
+    for four in fours {
+        for (sum, value) in sums.iter_mut().zip(four) {
+            *sum += value * 0.0;
+        }
+    }
+    sums.iter().chain(rest).all(|value| value.is_finite())
 }
 
 /// The vectors of a column, to be read.

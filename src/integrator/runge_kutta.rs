@@ -65,6 +65,7 @@ impl Tableau {
             position,
             velocity,
             acceleration,
+            ..
         } = columns;
         self.position.stage(position, velocity, weight, reach);
         self.velocity.stage(velocity, acceleration, weight, reach);
@@ -75,6 +76,7 @@ impl Tableau {
             position,
             velocity,
             acceleration,
+            ..
         } = columns;
         self.position.finish(position, velocity, weight);
         self.velocity.finish(velocity, acceleration, weight);

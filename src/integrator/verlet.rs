@@ -1,4 +1,4 @@
-use super::{Columns, Integrator, Motions, Stage, System};
+use super::{Columns, Integrator, Stage, System};
 use crate::damper::StepError;
 use crate::parallel::{update, update_by_two, update_two};
 
@@ -11,22 +11,17 @@ use crate::parallel::{update, update_by_two, update_two};
 /// strict laws, which make up for what a step misses where a contact sets in. (A force that starts
 /// like t^p, unless its law does so, costs an error of order p + 1 once per contact.) At 100 steps to a
 /// contact the restitution is good to 3e-4; see [`guide::trust`](crate::guide::trust) for other steps.
-#[derive(Debug, Clone, Default)]
-pub struct VelocityVerlet {
-    translation: Vec<f64>,
-    rotation: Vec<f64>,
-    mount: Vec<f64>,
-}
+#[derive(Debug, Clone, Copy, Default)]
+pub struct VelocityVerlet;
 
-/// Moves positions by the step, predicts velocities, and keeps the accelerations in `kept`.
-fn predict(columns: Columns<'_>, kept: &mut Vec<f64>, dt: f64) {
+/// Moves positions by the step, and predicts velocities.
+fn predict(columns: Columns<'_>, dt: f64) {
     let Columns {
         position,
         velocity,
         acceleration,
+        ..
     } = columns;
-    kept.clear();
-    kept.extend_from_slice(acceleration);
     if position.is_empty() {
         update(velocity, acceleration, |v, a| *v += a * dt);
         return;
@@ -39,12 +34,12 @@ fn predict(columns: Columns<'_>, kept: &mut Vec<f64>, dt: f64) {
 }
 
 /// Turns the predicted velocities into v + (a + a') dt/2.
-fn correct(columns: Columns<'_>, kept: &[f64], dt: f64) {
+fn correct(columns: Columns<'_>, dt: f64) {
     let half = 0.5 * dt;
     update_by_two(
         columns.velocity,
         columns.acceleration,
-        kept,
+        columns.previous,
         |v, new, old| {
             *v += (new - old) * half;
         },
@@ -53,25 +48,13 @@ fn correct(columns: Columns<'_>, kept: &[f64], dt: f64) {
 
 impl Integrator for VelocityVerlet {
     fn step<S: System>(&mut self, system: &mut S, time_step: f64) -> Result<(), StepError> {
-        let Motions {
-            translation,
-            rotation,
-            mount,
-        } = system.motions();
-        predict(translation, &mut self.translation, time_step);
-        predict(rotation, &mut self.rotation, time_step);
-        predict(mount, &mut self.mount, time_step);
-
+        for columns in system.motions().all() {
+            predict(columns, time_step);
+        }
         system.evaluate(time_step, Stage::End)?;
-
-        let Motions {
-            translation,
-            rotation,
-            mount,
-        } = system.motions();
-        correct(translation, &self.translation, time_step);
-        correct(rotation, &self.rotation, time_step);
-        correct(mount, &self.mount, time_step);
+        for columns in system.motions().all() {
+            correct(columns, time_step);
+        }
         Ok(())
     }
 }

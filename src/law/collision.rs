@@ -20,6 +20,7 @@ pub(super) struct Collision<'l, L: ContactLaw> {
     time_step: f64,
     pub(super) spin: Vectors,
     spin_rate: Vectors,
+    previous: [Vectors; 2],
     pub(super) touching: bool,
     pub(super) peak: (f64, f64),
 }
@@ -80,6 +81,7 @@ impl<'l, L: ContactLaw> Collision<'l, L> {
             time_step: 0.0,
             spin: column(spin),
             spin_rate: column(DVec3::ZERO),
+            previous: [column(DVec3::ZERO), column(DVec3::ZERO)],
             touching: true,
             peak: (0.0, 0.0),
         }
@@ -164,16 +166,19 @@ impl<L: ContactLaw> System for Collision<'_, L> {
                 position: self.position.flat_mut(),
                 velocity: self.velocity.flat_mut(),
                 acceleration: self.acceleration.flat(),
+                previous: self.previous[0].flat(),
             },
             rotation: Columns {
                 position: &mut [],
                 velocity: self.spin.flat_mut(),
                 acceleration: self.spin_rate.flat(),
+                previous: self.previous[1].flat(),
             },
             mount: Columns {
                 position: &mut [],
                 velocity: &mut [],
                 acceleration: &[],
+                previous: &[],
             },
         }
     }
@@ -182,6 +187,7 @@ impl<L: ContactLaw> System for Collision<'_, L> {
         let contact = self.contact(elapsed);
         let [ahead, behind] = both(&self.acceleration);
         let edge = Edge::new(self.time_step, (ahead - behind).dot(contact.normal));
+        self.previous = [self.acceleration.clone(), self.spin_rate.clone()];
         self.acceleration.flat_mut().fill(0.0);
         self.spin_rate.flat_mut().fill(0.0);
         let touching = contact.overlap > 0.0;

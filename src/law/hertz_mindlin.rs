@@ -262,7 +262,7 @@ mod tests {
         let velocity = 3.9 * dvec3(sine, -cosine, 0.0);
         let mut impact = Collision::new(&law, bodies, velocity, DVec3::ZERO);
         let duration = law.elastic_impact(&bodies, 3.9).unwrap().duration();
-        impact.run(&mut VelocityVerlet::default(), duration / steps);
+        impact.run(&mut VelocityVerlet, duration / steps);
         impact.velocity.get(0).x / velocity.x
     }
 
@@ -306,7 +306,7 @@ mod tests {
             for steps in [20.0, 100.0] {
                 for mut impact in oblique(&law) {
                     let before = impact.kinetic_energy();
-                    impact.run_in(&mut VelocityVerlet::default(), steps);
+                    impact.run_in(&mut VelocityVerlet, steps);
                     assert!(impact.kinetic_energy() < before, "{e} {mu} {steps}");
                 }
                 for mut impact in oblique(&law) {

@@ -229,7 +229,7 @@ mod tests {
             let law = HertzTsuji::new(acrylic(e, 0.2));
             for bodies in paper_bodies() {
                 let mut impact = Collision::new(&law, bodies, -DVec3::Y, DVec3::ZERO);
-                impact.run_in(&mut VelocityVerlet::default(), 100.0);
+                impact.run_in(&mut VelocityVerlet, 100.0);
                 assert_abs_diff_eq!(impact.separation_speed(), e, epsilon = 1e-3);
             }
         }
@@ -271,7 +271,7 @@ mod tests {
                 for steps in [20.0, 100.0] {
                     for mut impact in oblique(&law) {
                         let before = impact.kinetic_energy();
-                        impact.run_in(&mut VelocityVerlet::default(), steps);
+                        impact.run_in(&mut VelocityVerlet, steps);
                         assert!(
                             impact.kinetic_energy() < before,
                             "{friction:?} {e} {mu} {steps}"
@@ -295,7 +295,7 @@ mod tests {
         let step = law.elastic_impact(&bodies, fall).unwrap().duration() / 200.0;
         for spin in [1.0_f64, 3.0, 5.0, 9.0] {
             let mut impact = Collision::new(&law, bodies, -fall * DVec3::Y, -spin * DVec3::Z);
-            impact.run(&mut VelocityVerlet::default(), step);
+            impact.run(&mut VelocityVerlet, step);
             let impulse = mu * (1.0 + e) * fall;
             let (speed, left) = if spin * radius >= 3.5 * impulse {
                 (impulse, spin - 2.5 * impulse / radius)
@@ -313,7 +313,7 @@ mod tests {
         let law = HertzTsuji::new(Material::acrylic());
         let mut impact = Collision::new(&law, paper_bodies()[1], -DVec3::Y, 80.0 * DVec3::Z);
         impact.spin.set(1, -80.0 * DVec3::Z);
-        impact.run_in(&mut VelocityVerlet::default(), 50.0);
+        impact.run_in(&mut VelocityVerlet, 50.0);
         assert_abs_diff_eq!(impact.velocity.get(0).x, 0.0, epsilon = 1e-12);
         assert_abs_diff_eq!(impact.spin.get(0).z, 80.0, epsilon = 1e-9);
     }

@@ -228,7 +228,7 @@ fn verlet<L: ContactLaw>(
     gap: f64,
     bodies: &[Particle],
 ) -> Collision {
-    collide(law, walls, VelocityVerlet::default(), dt, gap, bodies)
+    collide(law, walls, VelocityVerlet, dt, gap, bodies)
 }
 
 /// Cases 4 (constant speed, various angles) and 5 (constant normal speed, various tangential ones).

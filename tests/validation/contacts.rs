@@ -259,9 +259,9 @@ fn worst_restitution(damping: Damping, ending: Ending, e: f64, ratio: f64, form:
             .damping(damping)
             .ending(ending);
         for impact in [
-            collide(&strict, walls, VelocityVerlet::default(), dt, gap, &bodies),
+            collide(&strict, walls, VelocityVerlet, dt, gap, &bodies),
             collide(&strict, walls, RungeKutta4::default(), dt, gap, &bodies),
-            collide(&sticky, walls, VelocityVerlet::default(), dt, gap, &bodies),
+            collide(&sticky, walls, VelocityVerlet, dt, gap, &bodies),
             collide(&sticky, walls, RungeKutta4::default(), dt, gap, &bodies),
         ] {
             let velocity = |n: usize| impact.bodies.get(n).map_or(0.0, |body| body.velocity.y);

@@ -117,7 +117,7 @@ fn momentum() -> Vec<Case> {
     [
         (
             "HertzTsuji, VelocityVerlet",
-            momentum_drift(&strict, VelocityVerlet::default(), 2e-5),
+            momentum_drift(&strict, VelocityVerlet, 2e-5),
         ),
         (
             "HertzTsuji, RungeKutta4",
@@ -125,11 +125,11 @@ fn momentum() -> Vec<Case> {
         ),
         (
             "RestitutionImpulse, VelocityVerlet",
-            momentum_drift(&coarse, VelocityVerlet::default(), 1e-4),
+            momentum_drift(&coarse, VelocityVerlet, 1e-4),
         ),
         (
             "RestitutionImpulse, longest step",
-            momentum_drift(&coarse, VelocityVerlet::default(), 6e-4),
+            momentum_drift(&coarse, VelocityVerlet, 6e-4),
         ),
     ]
     .map(|(parts, drift)| {

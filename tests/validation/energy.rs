@@ -146,7 +146,7 @@ pub(crate) fn gain(law: Law, throw: &Throw, target: Target) -> f64 {
 }
 
 fn gain_of_both<L: ContactLaw + Clone>(law: &L, throw: &Throw, target: Target) -> f64 {
-    let verlet = gain_under(law, VelocityVerlet::default(), throw, target);
+    let verlet = gain_under(law, VelocityVerlet, throw, target);
     verlet.max(gain_under(law, RungeKutta4::default(), throw, target))
 }
 

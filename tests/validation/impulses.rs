@@ -46,7 +46,7 @@ fn pairs() -> Vec<Case> {
                     let dt = 1e-4;
                     let gap = (v2 - v1) * dt * phase;
                     let walls = Materials::FIRST;
-                    let impact = collide(law, walls, VelocityVerlet::default(), dt, gap, &bodies);
+                    let impact = collide(law, walls, VelocityVerlet, dt, gap, &bodies);
                     let after = [0, 1].map(|n| impact.bodies[n].velocity.y);
                     let share = |other: f64| (1.0 + e) * other / (m1 + m2) * (v1 - v2);
                     let name = |what: &str| {

@@ -80,7 +80,7 @@ fn smooth() -> Vec<Case> {
             Tolerance::Absolute(0.15),
         ));
     };
-    let verlet = |dt| oscillator(VelocityVerlet::default(), dt);
+    let verlet = |dt| oscillator(VelocityVerlet, dt);
     let kutta = |dt| oscillator(RungeKutta4::default(), dt);
     check(
         "VelocityVerlet, oscillator: order",
@@ -106,7 +106,7 @@ fn smooth() -> Vec<Case> {
     let error = |state: [f64; 4]| (state[0] - exact[0]).hypot(state[1] - exact[1]);
     let verlet = |steps| {
         error(stack_by_crate(
-            VelocityVerlet::default(),
+            VelocityVerlet,
             densities,
             k,
             e,

@@ -230,7 +230,7 @@ fn stacked() -> Vec<Case> {
         for time in [2e-4, 1e-3] {
             let expected = stack_at(masses, k, e, radius, time);
             let plan = (radius, time, 1000);
-            let verlet = stack_by_crate(VelocityVerlet::default(), densities, k, e, plan);
+            let verlet = stack_by_crate(VelocityVerlet, densities, k, e, plan);
             let kutta = stack_by_crate(RungeKutta4::default(), densities, k, e, plan);
             for (got, integrator) in [(verlet, "VelocityVerlet"), (kutta, "RungeKutta4")] {
                 for n in 0..2 {

@@ -51,7 +51,7 @@ pub(crate) fn rebound(law: Law, degrees: f64, mu: f64, e: f64) -> [f64; 3] {
     let dt = hertz_duration(k, body.mass, normal) / 400.0;
     let bodies = [body.moving(3.9 * DVec3::new(sine, -cosine, 0.0))];
     let gap = 0.3 * normal * dt;
-    let verlet = VelocityVerlet::default();
+    let verlet = VelocityVerlet;
     let after = match law {
         Law::HertzTsuji => {
             let law = HertzTsuji::new(materials).reference_speed(normal).unwrap();

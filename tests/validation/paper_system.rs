@@ -166,7 +166,7 @@ fn empty() -> Vec<Case> {
     for f in [4.0, 5.0, 5.6, 6.0, 6.027_858, 7.0, 8.0] {
         let law = || RestitutionImpulse::new(Material::acrylic());
         let (run, plan) = ((0, f), (1e-4, 30.0));
-        let verlet = response(law(), AllPairs, VelocityVerlet::default(), run, plan);
+        let verlet = response(law(), AllPairs, VelocityVerlet, run, plan);
         let kutta = response(law(), AllPairs, RungeKutta4::default(), run, plan);
         for ([rms, ..], integrator) in [(verlet, "VelocityVerlet"), (kutta, "RungeKutta4")] {
             let name = format!("empty, {f} Hz, {integrator}: RMS/(F/K)");

@@ -14,19 +14,22 @@ use crate::damper::Partner;
 use crate::damper::candidates::Candidates;
 use crate::damper::chunk::{CHUNK, Chunk};
 use crate::damper::scene::{Scene, WallLoad};
+use crate::damper::vectors::scale;
 use crate::law::ContactLaw;
 use crate::observer::Observer;
 
 impl<L: ContactLaw> Block<L> {
-    /// Evaluates all contacts of the block. `force` and `torque` are those of its own slots.
-    /// With `END`, contacts advance their memory to step `scene.stamp + 1`.
+    /// Evaluates all contacts of the block, and turns forces and torques on its own slots, for which
+    /// there is room in `sums`, into accelerations; parcels of other blocks are not among them. Returns
+    /// whether all are finite. With `END`, contacts advance their memory to step `scene.stamp + 1`.
     pub(crate) fn evaluate<C: Cavity, O: Observer, const END: bool>(
         &mut self,
         scene: &Scene<'_, C, L>,
-        force: &mut [f64],
-        torque: &mut [f64],
+        gravity: DVec3,
+        sums: (&mut [f64], &mut [f64]),
         observer: &mut O,
-    ) {
+    ) -> bool {
+        let (force, torque) = sums;
         force.fill(0.0);
         torque.fill(0.0);
         self.loads.fill(WallLoad::default());
@@ -34,18 +37,20 @@ impl<L: ContactLaw> Block<L> {
         self.forget();
         self.contacts = self.contacts_in_reach();
         if scene.planar {
-            let sums = Sums::<true>::new(force, torque);
-            self.evaluate_lists::<C, O, END, true>(scene, sums, observer);
+            let mut sums = Sums::<true>::new(force, torque);
+            self.evaluate_lists::<C, O, END, true>(scene, &mut sums, observer);
+            sums.accelerate(scene, self.slots.clone(), gravity)
         } else {
-            let sums = Sums::<false>::new(force, torque);
-            self.evaluate_lists::<C, O, END, false>(scene, sums, observer);
+            let mut sums = Sums::<false>::new(force, torque);
+            self.evaluate_lists::<C, O, END, false>(scene, &mut sums, observer);
+            sums.accelerate(scene, self.slots.clone(), gravity)
         }
     }
 
     fn evaluate_lists<C: Cavity, O: Observer, const END: bool, const PLANAR: bool>(
         &mut self,
         scene: &Scene<'_, C, L>,
-        mut sums: Sums<'_, PLANAR>,
+        sums: &mut Sums<'_, PLANAR>,
         observer: &mut O,
     ) {
         let base = self.slots.start;
@@ -157,6 +162,26 @@ impl<'a, const PLANAR: bool> Sums<'a, PLANAR> {
             add(&mut torques[n], torque);
         }
     }
+
+    /// Turns the sums, which are those of `slots`, into accelerations. Returns whether all are finite.
+    fn accelerate<C, L: ContactLaw>(
+        &mut self,
+        scene: &Scene<'_, C, L>,
+        slots: Range<usize>,
+        gravity: DVec3,
+    ) -> bool {
+        let inverse_mass = &scene.inverse_mass[slots.clone()];
+        let inverse_inertia = &scene.inverse_inertia[slots];
+        let DVec3 { x, y, z } = gravity;
+        if PLANAR {
+            let (forces, torques) = &mut self.plane;
+            let (torques, _) = torques.as_chunks_mut();
+            scale(forces, inverse_mass, [x, y]) & scale(torques, inverse_inertia, [0.0])
+        } else {
+            let (forces, torques) = &mut self.space;
+            scale(forces, inverse_mass, [x, y, z]) & scale(torques, inverse_inertia, [0.0; 3])
+        }
+    }
 }
 
 /// Runs of at most [`CHUNK`] contacts, one after the other.
@@ -212,7 +237,7 @@ fn answer_walls<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
     let only = scene.coefficients.only_wall();
     chunk.answer::<false, END, PLANAR>(scene.law, only, kinds, scene.elapsed);
     if scene.law.has_edges() {
-        let acceleration = |n: usize| scene.acceleration(bodies[n][0] as usize);
+        let acceleration = |n: usize| scene.acceleration.get(bodies[n][0] as usize);
         chunk.mend_edges::<false, END>(scene.law, only, scene.moment(), acceleration);
     }
     if END {
@@ -226,6 +251,6 @@ pub(super) fn acceleration_of_pair<C: Cavity, L: ContactLaw>(
     scene: &Scene<'_, C, L>,
     bodies: [u32; 2],
 ) -> DVec3 {
-    let [first, second] = bodies.map(|slot| scene.acceleration(slot as usize));
+    let [first, second] = bodies.map(|slot| scene.acceleration.get(slot as usize));
     first - second
 }

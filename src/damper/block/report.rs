@@ -54,7 +54,7 @@ pub(super) fn report_walls<C: Cavity, L: ContactLaw>(
     for (n, [slot, wall]) in list.contacts.bodies()[run].iter().enumerate() {
         let (slot, wall) = (*slot as usize, *wall);
         let kind = scene.coefficients.wall(scene.species[slot]);
-        let acceleration = scene.acceleration(slot);
+        let acceleration = scene.acceleration.get(slot);
         let (contact, force, memory) =
             chunk.ask::<false>(scene.law, kind, n, scene.moment(), acceleration);
         observer.contact(&ContactEvent {
