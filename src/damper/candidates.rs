@@ -20,15 +20,6 @@ struct Candidate {
     limit: f64,
 }
 
-/// Two bodies in contact.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Touch {
-    /// Slots of both, or slot and number of the wall.
-    pub(crate) bodies: [u32; 2],
-    /// Place among the candidates.
-    pub(crate) place: u32,
-}
-
 /// The memory of a contact, between two lists of candidates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -290,20 +281,6 @@ impl<L: ContactLaw> Candidates<L> {
         self.contacts.count = count;
     }
 
-    /// The contacts.
-    pub(crate) fn touching(&self) -> impl Iterator<Item = Touch> {
-        (0..self.contacts.len()).map(|number| self.touch(number))
-    }
-
-    /// The contact of a number.
-    #[inline(always)]
-    pub(crate) fn touch(&self, number: usize) -> Touch {
-        Touch {
-            bodies: self.contacts.bodies[number],
-            place: self.contacts.places[number],
-        }
-    }
-
     /// The law's own coefficients of a candidate, if it was asked pair by pair.
     #[inline(always)]
     pub(crate) fn prepared(&self, place: u32) -> Option<&L::Coefficients> {
@@ -346,12 +323,19 @@ impl<L: ContactLaw> Candidates<L> {
         }
     }
 
-    /// Keeps what the contacts remember at the end of step `stamp`, of which `next` tells one by one.
-    pub(crate) fn keep_all(&mut self, stamp: u32, mut next: impl FnMut() -> Option<L::Memory>) {
-        for place in self.contacts.places() {
-            if let Some(memory) = next() {
+    /// Keeps what the contacts remember at the end of step `stamp`, of which `memories` tells one by
+    /// one; those without any forget.
+    pub(crate) fn keep_all<'m>(
+        &mut self,
+        stamp: u32,
+        memories: impl Iterator<Item = Option<&'m L::Memory>>,
+    ) where
+        L::Memory: 'm,
+    {
+        for (place, memory) in self.contacts.places().iter().zip(memories) {
+            if let Some(memory) = memory {
                 let entry = &mut self.entry[*place as usize];
-                keep(&mut self.entries, entry, stamp, &memory);
+                keep(&mut self.entries, entry, stamp, memory);
             }
         }
     }

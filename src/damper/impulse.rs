@@ -19,7 +19,7 @@ mod pass;
 mod report;
 mod together;
 
-use joint::{Container, Joint, Surroundings};
+use joint::{Container, Surroundings};
 use pass::Round;
 
 pub(crate) use joint::Joints;
@@ -56,7 +56,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         self.look_ahead(time_step);
         self.list_joints();
         if observer.wants_contacts() {
-            let joints = self.joints.pairs.len() + self.joints.walls.len();
+            let joints = self.joints.pairs.joints.len() + self.joints.walls.joints.len();
             self.joints.given.resize(joints, ContactForce::default());
         }
         self.joints.start(&self.particles, time_step);
@@ -146,23 +146,18 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             block.contacts = block.contacts_in_reach();
             let mut deepest = 0.0_f64;
             for list in [&block.pairs, &block.border] {
-                for touch in list.touching() {
-                    let cavity = self.world.cavity_of(touch.bodies[0] as usize);
-                    let overlap = self.joints.add_pair(&scene, list, touch, cavity);
-                    deepest = deepest.max(overlap);
-                }
+                deepest = deepest.max(if scene.planar {
+                    self.joints.add_pairs::<C, true>(&scene, list)
+                } else {
+                    self.joints.add_pairs::<C, false>(&scene, list)
+                });
             }
-            for touch in block.walls.touching() {
-                let overlap = self.joints.add_wall(&scene, &block.walls, touch);
-                deepest = deepest.max(overlap);
-                let (slot, wall) = (touch.bodies[0] as usize, touch.bodies[1]);
-                if overlap > scene.radius[slot] {
-                    let room = scene.room_of_wall(wall);
-                    let partner = Partner::Wall(wall - room.first_wall);
-                    block.escaped = Some(Place { slot, partner });
-                }
-            }
-            block.largest_overlap = deepest;
+            let escaped = |slot, wall| {
+                let partner = Partner::Wall(wall - scene.room_of_wall(wall).first_wall);
+                block.escaped = Some(Place { slot, partner });
+            };
+            let at_walls = self.joints.add_walls(&scene, &block.walls, escaped);
+            block.largest_overlap = deepest.max(at_walls);
         }
     }
 
@@ -186,14 +181,12 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             return;
         }
         let stamp = self.world.stamp.wrapping_add(1);
-        let remembered = |joint: &Joint<L::Memory>| joint.remembers.then_some(joint.memory);
-        let mut pairs = self.joints.pairs.iter().map(remembered);
-        let mut walls = self.joints.walls.iter().map(remembered);
+        let mut pairs = self.joints.pairs.remembered();
+        let mut walls = self.joints.walls.remembered();
         for block in &mut self.blocks {
-            for list in [&mut block.pairs, &mut block.border] {
-                list.keep_all(stamp, || pairs.next().flatten());
-            }
-            block.walls.keep_all(stamp, || walls.next().flatten());
+            block.pairs.keep_all(stamp, &mut pairs);
+            block.border.keep_all(stamp, &mut pairs);
+            block.walls.keep_all(stamp, &mut walls);
         }
     }
 

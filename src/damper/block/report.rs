@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::evaluate::acceleration_of_pair;
 use crate::cavity::Cavity;
 use crate::damper::Partner;
-use crate::damper::candidates::{Candidates, Touch};
+use crate::damper::candidates::Candidates;
 use crate::damper::chunk::Chunk;
 use crate::damper::scene::Scene;
 use crate::law::ContactLaw;
@@ -21,7 +21,10 @@ pub(super) fn report_pairs<C: Cavity, L: ContactLaw>(
     observer: &mut impl Observer,
 ) {
     for (n, number) in run.enumerate() {
-        let Touch { bodies, place } = list.touch(number);
+        let (bodies, place) = (
+            list.contacts.bodies()[number],
+            list.contacts.places()[number],
+        );
         let (slot, other) = (bodies[0] as usize, bodies[1] as usize);
         let prepared = list.prepared(place);
         let (first, second) = (scene.species[slot], scene.species[other]);

@@ -7,11 +7,17 @@ use glam::{DMat3, DVec3};
 
 use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce};
-use crate::damper::candidates::{Candidates, Touch, make_room};
+use crate::damper::candidates::{Candidates, make_room};
 use crate::damper::particles::Particles;
 use crate::damper::scene::{Scene, World, at_surface, meeting, resolve};
 use crate::damper::vectors::{axial, polar};
 use crate::law::ContactLaw;
+
+/// The larger of two numbers, `a` if either is not one.
+#[inline(always)]
+pub(super) const fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
 
 /// A particle between impulses.
 #[derive(Debug, Clone, Copy)]
@@ -41,10 +47,9 @@ impl Mover {
     }
 }
 
-/// Two bodies in reach of each other: where they stand, which lasts for the step, and what the contact
-/// remembers of its impulses so far.
+/// Two bodies in reach of each other: where they stand, which lasts for the step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Joint<M> {
+pub(super) struct Joint {
     /// Slots of both, or slot and number of the wall.
     pub(super) bodies: [u32; 2],
     /// Number of their cavity.
@@ -56,22 +61,19 @@ pub(super) struct Joint<M> {
     /// From the second body to the first.
     pub(super) normal: DVec3,
     pub(super) overlap: f64,
-    pub(super) memory: M,
 }
 
-impl<M: Default> Joint<M> {
+impl Joint {
     /// Notes whether `answer` is any, without which there is nothing to remember.
     #[inline(always)]
-    pub(super) fn goes_on(&mut self, answer: &ContactForce) -> bool {
+    pub(super) fn goes_on<M: Default>(&mut self, answer: &ContactForce, memory: &mut M) -> bool {
         self.remembers = *answer != ContactForce::default();
         if !self.remembers {
-            self.memory = M::default();
+            *memory = M::default();
         }
         self.remembers
     }
-}
 
-impl<M> Joint<M> {
     /// The contact of two particles. With `PLANAR` all motion is in the plane z = 0.
     #[inline(always)]
     pub(super) fn between<const PLANAR: bool>(
@@ -165,11 +167,78 @@ pub(super) struct Container {
     pub(super) surroundings: Surroundings,
 }
 
+/// Joints, and what they remember of their impulses so far.
+#[derive(Debug, Clone)]
+pub(super) struct Group<M> {
+    pub(super) joints: Vec<Joint>,
+    /// As many, and what is left of a step that had more.
+    pub(super) memories: Vec<M>,
+}
+
+impl<M: Copy + Default> Group<M> {
+    const fn new() -> Self {
+        Self {
+            joints: Vec::new(),
+            memories: Vec::new(),
+        }
+    }
+
+    /// Empties the group, and makes room for as many joints.
+    fn clear(&mut self, joints: usize) {
+        self.joints.clear();
+        make_room(&mut self.joints, joints);
+        if self.memories.len() < joints {
+            make_room(&mut self.memories, joints);
+            self.memories.resize(joints, M::default());
+        }
+    }
+
+    /// Adds the contacts of a list, each as `joint` has it from its two bodies.
+    #[inline(always)]
+    fn add<L: ContactLaw<Memory = M>>(
+        &mut self,
+        list: &Candidates<L>,
+        stamp: u32,
+        joint: impl FnMut([u32; 2]) -> Joint,
+    ) {
+        let start = self.joints.len();
+        let bodies = list.contacts.bodies().iter().copied();
+        self.joints.extend(bodies.map(joint));
+        let joints = &mut self.joints[start..];
+        let places = list.contacts.places();
+        for ((place, joint), memory) in places.iter().zip(joints).zip(&mut self.memories[start..]) {
+            // Each straight to its place: through a temporary it would be copied twice.
+            match list.touched(*place, stamp) {
+                Some(remembered) => {
+                    *memory = *remembered;
+                    joint.remembers = true;
+                }
+                None => *memory = M::default(),
+            }
+        }
+    }
+
+    /// The joints with their memories.
+    pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = (&mut Joint, &mut M)> {
+        self.joints.iter_mut().zip(&mut self.memories)
+    }
+
+    /// What those joints remember that do, in turn for every joint.
+    pub(super) fn remembered(&self) -> impl Iterator<Item = Option<&M>> {
+        let all = self.joints.iter().zip(&self.memories);
+        all.map(|(joint, memory)| joint.remembers.then_some(memory))
+    }
+
+    const fn reserved_bytes(&self) -> usize {
+        size_of::<Joint>() * self.joints.capacity() + size_of::<M>() * self.memories.capacity()
+    }
+}
+
 /// All that the impulses of a step are worked out with.
 #[derive(Debug, Clone)]
 pub(crate) struct Joints<L: ContactLaw> {
-    pub(super) pairs: Vec<Joint<L::Memory>>,
-    pub(super) walls: Vec<Joint<L::Memory>>,
+    pub(super) pairs: Group<L::Memory>,
+    pub(super) walls: Group<L::Memory>,
     /// Coefficients of each pair, unless all have the same.
     pub(super) kinds: Vec<L::Coefficients>,
     /// The particles at the start of the step.
@@ -189,8 +258,8 @@ pub(crate) struct Joints<L: ContactLaw> {
 impl<L: ContactLaw> Default for Joints<L> {
     fn default() -> Self {
         Self {
-            pairs: Vec::new(),
-            walls: Vec::new(),
+            pairs: Group::new(),
+            walls: Group::new(),
             kinds: Vec::new(),
             starts: Vec::new(),
             movers: Vec::new(),
@@ -212,68 +281,80 @@ impl<L: ContactLaw> Joints<L> {
 
     /// Empties the lists, and makes room for as many joints.
     pub(super) fn clear(&mut self, pairs: usize, walls: usize) {
-        self.pairs.clear();
-        self.walls.clear();
+        self.pairs.clear(pairs);
+        self.walls.clear(walls);
         self.kinds.clear();
         self.given.clear();
-        make_room(&mut self.pairs, pairs);
-        make_room(&mut self.walls, walls);
     }
 
-    /// Adds a pair in reach, and returns its overlap in m.
-    #[inline(always)]
-    pub(super) fn add_pair<C: Cavity>(
+    /// Adds the pairs of a list, and returns their largest overlap in m.
+    pub(super) fn add_pairs<C: Cavity, const PLANAR: bool>(
         &mut self,
         scene: &Scene<'_, C, L>,
         list: &Candidates<L>,
-        touch: Touch,
-        cavity: usize,
     ) -> f64 {
-        let [i, j] = touch.bodies.map(|slot| slot as usize);
-        let radii = [scene.radius[i], scene.radius[j]];
-        let towards = scene.position.get(i) - scene.position.get(j);
-        let (normal, overlap) = meeting::<false>(towards, radii);
-        let remembered = list.touched(touch.place, scene.stamp);
-        self.pairs.push(Joint {
-            bodies: touch.bodies,
-            cavity: cavity as u32,
-            remembers: remembered.is_some(),
-            radii,
-            normal,
-            overlap,
-            memory: remembered.copied().unwrap_or_default(),
+        let position = scene.position.polar::<PLANAR>(scene.radius.len());
+        let mut deepest = 0.0;
+        let mut cavity = 0;
+        self.pairs.add(list, scene.stamp, |bodies| {
+            let [i, j] = bodies.map(|slot| slot as usize);
+            let radii = [scene.radius[i], scene.radius[j]];
+            let towards = position.get(i) - position.get(j);
+            let (normal, overlap) = meeting::<PLANAR>(towards, radii);
+            deepest = larger(deepest, overlap);
+            // Slots ascend, and so do their cavities.
+            while i >= scene.rooms[cavity].slots.end {
+                cavity += 1;
+            }
+            Joint {
+                bodies,
+                cavity: cavity as u32,
+                remembers: false,
+                radii,
+                normal,
+                overlap,
+            }
         });
         if scene.coefficients.only_pair().is_none() {
-            let own = list.prepared(touch.place);
-            let [first, second] = [scene.species[i], scene.species[j]];
-            self.kinds.push(scene.coefficients.pair(first, second, own));
+            let contacts = &list.contacts;
+            let kinds = contacts.bodies().iter().zip(contacts.places());
+            self.kinds.extend(kinds.map(|(bodies, place)| {
+                let [first, second] = bodies.map(|slot| scene.species[slot as usize]);
+                let own = list.prepared(*place);
+                scene.coefficients.pair(first, second, own)
+            }));
         }
-        overlap
+        deepest
     }
 
-    /// Adds a wall in reach of a particle, and returns their overlap in m.
-    #[inline(always)]
-    pub(super) fn add_wall<C: Cavity>(
+    /// Adds the walls of a list, and returns their largest overlap in m. Tells `escaped` of particles
+    /// that are more than a radius behind one.
+    pub(super) fn add_walls<C: Cavity>(
         &mut self,
         scene: &Scene<'_, C, L>,
         list: &Candidates<L>,
-        touch: Touch,
+        mut escaped: impl FnMut(usize, u32),
     ) -> f64 {
-        let (slot, wall) = (touch.bodies[0] as usize, touch.bodies[1]);
-        let point = scene.wall_point(wall, scene.position.get(slot));
-        let radius = scene.radius[slot];
-        let overlap = radius - point.distance;
-        let remembered = list.touched(touch.place, scene.stamp);
-        self.walls.push(Joint {
-            bodies: touch.bodies,
-            cavity: scene.cavity_of_wall(wall) as u32,
-            remembers: remembered.is_some(),
-            radii: [radius, 0.0],
-            normal: point.normal,
-            overlap,
-            memory: remembered.copied().unwrap_or_default(),
+        let mut deepest = 0.0;
+        self.walls.add(list, scene.stamp, |bodies| {
+            let (slot, wall) = (bodies[0] as usize, bodies[1]);
+            let point = scene.wall_point(wall, scene.position.get(slot));
+            let radius = scene.radius[slot];
+            let overlap = radius - point.distance;
+            deepest = larger(deepest, overlap);
+            if overlap > radius {
+                escaped(slot, wall);
+            }
+            Joint {
+                bodies,
+                cavity: scene.cavity_of_wall(wall) as u32,
+                remembers: false,
+                radii: [radius, 0.0],
+                normal: point.normal,
+                overlap,
+            }
         });
-        overlap
+        deepest
     }
 
     /// Takes over the velocities at the start of the step.
@@ -295,7 +376,8 @@ impl<L: ContactLaw> Joints<L> {
 
     /// Memory in bytes that is reserved.
     pub(crate) const fn reserved_bytes(&self) -> usize {
-        size_of::<Joint<L::Memory>>() * (self.pairs.capacity() + self.walls.capacity())
+        self.pairs.reserved_bytes()
+            + self.walls.reserved_bytes()
             + size_of::<L::Coefficients>() * self.kinds.capacity()
             + size_of::<Mover>() * (self.starts.capacity() + self.movers.capacity())
             + self.changed.capacity()

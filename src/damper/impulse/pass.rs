@@ -3,7 +3,7 @@
 // Small functions of the innermost loop: the compiler must see the loop whole.
 #![allow(clippy::inline_always)]
 
-use super::joint::{Joints, kind_of_pair};
+use super::joint::{Joints, kind_of_pair, larger};
 use super::{STILL, STIRRED};
 use crate::cavity::Cavity;
 use crate::contact::ContactForce;
@@ -12,12 +12,6 @@ use crate::damper::scene::World;
 use crate::detector::Detector;
 use crate::law::ContactLaw;
 use crate::mount::Mount;
-
-/// The larger of two speeds, of which neither is a NaN.
-#[inline(always)]
-const fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
 
 /// A round through the joints.
 #[derive(Debug, Clone, Copy)]
@@ -54,7 +48,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
     fn strike_all<const PLANAR: bool>(&mut self, round: &Round) -> f64 {
         let mut largest = self.joints.strike_pairs::<C, PLANAR>(&self.world, round);
-        for number in 0..self.joints.walls.len() {
+        for number in 0..self.joints.walls.joints.len() {
             largest = larger(largest, self.strike_wall::<PLANAR>(number, round));
         }
         largest
@@ -63,11 +57,12 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     #[inline(always)]
     fn strike_wall<const PLANAR: bool>(&mut self, number: usize, round: &Round) -> f64 {
         let joints = &mut self.joints;
-        let joint = &mut joints.walls[number];
+        let joint = &mut joints.walls.joints[number];
+        let memory = &mut joints.walls.memories[number];
         let contact = joint.at_wall::<PLANAR>(&joints.movers, &joints.containers);
         let slot = joint.bodies[0] as usize;
         let kind = self.world.coefficients.wall(self.particles.species[slot]);
-        let answer = self.world.law.strike(kind, &contact, &mut joint.memory);
+        let answer = self.world.law.strike(kind, &contact, memory);
         if answer == ContactForce::default() {
             return 0.0;
         }
@@ -86,7 +81,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     #[inline(always)]
     pub(super) fn push_wall<const PLANAR: bool>(&mut self, number: usize, answer: &ContactForce) {
         let joints = &mut self.joints;
-        let joint = &joints.walls[number];
+        let joint = &joints.walls.joints[number];
         let (force, [torque, _]) = joint.resolve::<PLANAR>(answer);
         let (slot, wall) = (joint.bodies[0] as usize, joint.bodies[1] as usize);
         let cavity = joint.cavity as usize;
@@ -97,7 +92,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let arm = joint.normal * -joint.radii[0];
         let place = self.particles.position.get(slot) - container.origin + arm;
         self.wall_loads[wall].react(force, answer.couple, place);
-        let number = joints.pairs.len() + number;
+        let number = joints.pairs.joints.len() + number;
         if let Some(given) = joints.given.get_mut(number) {
             given.add(answer);
         }
@@ -128,7 +123,7 @@ impl<L: ContactLaw> Joints<L> {
         round: &Round,
     ) -> f64 {
         let mut largest = 0.0;
-        let count = self.pairs.len();
+        let count = self.pairs.joints.len();
         for turn in 0..count {
             let number = if round.number.is_multiple_of(2) {
                 turn
@@ -136,7 +131,7 @@ impl<L: ContactLaw> Joints<L> {
                 count - 1 - turn
             };
             let changed = |slot: u32| self.changed[slot as usize] >= round.number;
-            let [first, second] = self.pairs[number].bodies.map(changed);
+            let [first, second] = self.pairs.joints[number].bodies.map(changed);
             if first || second {
                 let speed = self.strike_pair::<C, PLANAR>(world, number, round);
                 largest = larger(largest, speed);
@@ -152,10 +147,11 @@ impl<L: ContactLaw> Joints<L> {
         number: usize,
         round: &Round,
     ) -> f64 {
-        let joint = &mut self.pairs[number];
+        let joint = &mut self.pairs.joints[number];
+        let memory = &mut self.pairs.memories[number];
         let contact = joint.between::<PLANAR>(&self.movers, &self.containers);
         let kind = kind_of_pair(world, &self.kinds, number);
-        let answer = world.law.strike(kind, &contact, &mut joint.memory);
+        let answer = world.law.strike(kind, &contact, memory);
         if answer == ContactForce::default() {
             return 0.0;
         }
@@ -179,7 +175,7 @@ impl<L: ContactLaw> Joints<L> {
         number: usize,
         answer: &ContactForce,
     ) -> f64 {
-        let joint = &self.pairs[number];
+        let joint = &self.pairs.joints[number];
         let (force, [first, second]) = joint.resolve::<PLANAR>(answer);
         let [i, j] = joint.bodies.map(|slot| slot as usize);
         self.movers[i].take::<PLANAR>(force, first);

@@ -15,7 +15,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let joints = &self.joints;
         let number = |slot: u32| self.particles.number[slot as usize] as usize;
         let mut given = joints.given.iter();
-        for (joint, given) in joints.pairs.iter().zip(&mut given) {
+        for (joint, given) in joints.pairs.joints.iter().zip(&mut given) {
             if *given == ContactForce::default() {
                 continue;
             }
@@ -28,7 +28,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 ..impulse(before, *given, &after)
             });
         }
-        for (joint, given) in joints.walls.iter().zip(&mut given) {
+        for (joint, given) in joints.walls.joints.iter().zip(&mut given) {
             if *given == ContactForce::default() {
                 continue;
             }

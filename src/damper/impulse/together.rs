@@ -35,20 +35,18 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         } else {
             self.joints.carry_pairs::<C, false>(world, part)
         };
-        for number in 0..self.joints.walls.len() {
+        for number in 0..self.joints.walls.joints.len() {
             let joints = &mut self.joints;
-            let joint = &mut joints.walls[number];
+            let joint = &mut joints.walls.joints[number];
+            let memory = &mut joints.walls.memories[number];
             if !joint.remembers {
                 continue;
             }
             let contact = joint.at_wall::<false>(&joints.starts, &joints.containers);
             let species = self.particles.species[joint.bodies[0] as usize];
             let kind = self.world.coefficients.wall(species);
-            let answer = self
-                .world
-                .law
-                .carry(kind, &contact, &mut joint.memory, part);
-            if joint.goes_on(&answer) {
+            let answer = self.world.law.carry(kind, &contact, memory, part);
+            if joint.goes_on(&answer, memory) {
                 any = true;
                 self.push_wall::<false>(number, &answer);
             }
@@ -84,13 +82,14 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Strikes all contacts, and advances what they remember with the velocities after the impulses.
     pub(super) fn strike_at_once(&mut self) {
         self.joints.strike_pairs_at_once(&self.world);
-        for number in 0..self.joints.walls.len() {
+        for number in 0..self.joints.walls.joints.len() {
             let joints = &self.joints;
-            let joint = &joints.walls[number];
+            let joint = &joints.walls.joints[number];
+            let memory = &joints.walls.memories[number];
             let contact = joint.at_wall::<false>(&joints.starts, &joints.containers);
             let species = self.particles.species[joint.bodies[0] as usize];
             let kind = self.world.coefficients.wall(species);
-            let answer = self.world.law.force(kind, &contact, &joint.memory);
+            let answer = self.world.law.force(kind, &contact, memory);
             self.push_wall::<false>(number, &answer);
         }
         self.move_containers();
@@ -99,18 +98,18 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         }
         let world = &self.world;
         let joints = &mut self.joints;
-        for (number, joint) in joints.pairs.iter_mut().enumerate() {
+        for (number, (joint, memory)) in joints.pairs.iter_mut().enumerate() {
             let contact = joint.between::<false>(&joints.movers, &joints.containers);
             let kind = kind_of_pair(world, &joints.kinds, number);
-            joint.memory = world.law.advance(kind, &contact, &joint.memory);
+            *memory = world.law.advance(kind, &contact, memory);
             joint.remembers = true;
         }
-        for joint in &mut joints.walls {
+        for (joint, memory) in joints.walls.iter_mut() {
             let contact = joint.at_wall::<false>(&joints.movers, &joints.containers);
             let kind = world
                 .coefficients
                 .wall(self.particles.species[joint.bodies[0] as usize]);
-            joint.memory = world.law.advance(kind, &contact, &joint.memory);
+            *memory = world.law.advance(kind, &contact, memory);
             joint.remembers = true;
         }
     }
@@ -123,15 +122,16 @@ impl<L: ContactLaw> Joints<L> {
         part: f64,
     ) -> bool {
         let mut any = false;
-        for number in 0..self.pairs.len() {
-            let joint = &mut self.pairs[number];
+        for number in 0..self.pairs.joints.len() {
+            let joint = &mut self.pairs.joints[number];
+            let memory = &mut self.pairs.memories[number];
             if !joint.remembers {
                 continue;
             }
             let contact = joint.between::<PLANAR>(&self.starts, &self.containers);
             let kind = kind_of_pair(world, &self.kinds, number);
-            let answer = world.law.carry(kind, &contact, &mut joint.memory, part);
-            if joint.goes_on(&answer) {
+            let answer = world.law.carry(kind, &contact, memory, part);
+            if joint.goes_on(&answer, memory) {
                 any = true;
                 self.push_pair::<PLANAR>(number, &answer);
             }
@@ -140,11 +140,12 @@ impl<L: ContactLaw> Joints<L> {
     }
 
     fn strike_pairs_at_once<C: Cavity>(&mut self, world: &World<C, L>) {
-        for number in 0..self.pairs.len() {
-            let joint = &self.pairs[number];
+        for number in 0..self.pairs.joints.len() {
+            let joint = &self.pairs.joints[number];
+            let memory = &self.pairs.memories[number];
             let contact = joint.between::<false>(&self.starts, &self.containers);
             let kind = kind_of_pair(world, &self.kinds, number);
-            let answer = world.law.force(kind, &contact, &joint.memory);
+            let answer = world.law.force(kind, &contact, memory);
             self.push_pair::<false>(number, &answer);
         }
     }
