@@ -91,11 +91,13 @@ impl<L: ContactLaw> Block<L> {
             }
         }
         for room in scene.rooms {
+            // A wall does not come to meet a particle.
+            let margin = 0.5 * room.margin;
             for slot in room.slots_in(&self.slots) {
                 let reach = scene.radius[slot] + reach;
                 for wall in 0..room.cavity.walls() {
                     let point = room.cavity.wall(wall, local[slot]);
-                    if point.distance < reach + room.margin {
+                    if point.distance < reach + margin {
                         self.walls.push(slot as u32, room.first_wall + wall, reach);
                     }
                 }
