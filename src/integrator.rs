@@ -80,7 +80,7 @@ pub trait System {
 ///
 /// Symplectic Euler, complete:
 /// ```
-/// use particle_damper::integrator::{Columns, Integrator, Motions, Stage, System};
+/// use particle_damper::integrator::{Columns, Integrator, Stage, System};
 /// use particle_damper::StepError;
 ///
 /// struct SymplecticEuler;
@@ -96,10 +96,9 @@ pub trait System {
 ///
 /// impl Integrator for SymplecticEuler {
 ///     fn step<S: System>(&mut self, system: &mut S, time_step: f64) -> Result<(), StepError> {
-///         let Motions { translation, rotation, mount, .. } = system.motions();
-///         push(translation, time_step);
-///         push(rotation, time_step);
-///         push(mount, time_step);
+///         for columns in system.motions().all() {
+///             push(columns, time_step);
+///         }
 ///         system.evaluate(time_step, Stage::End)
 ///     }
 /// }

@@ -1,0 +1,348 @@
+//! From a builder to a damper: whatever can be refused is.
+
+use glam::DVec3;
+
+use super::Builder;
+use crate::cavity::Cavity;
+use crate::damper::block::{BLOCK, memories, room_for};
+use crate::damper::clock::Clock;
+use crate::damper::coefficients::Coefficients;
+use crate::damper::engine::{Engine, MountState, Scratch};
+use crate::damper::error::BuildError;
+use crate::damper::impulse::Joints;
+use crate::damper::particles::Particles;
+use crate::damper::scene::{Room, WallLoad, World};
+use crate::damper::setup::Setup;
+use crate::damper::{Damper, smallest_radius};
+use crate::detector::{Bed, Detector};
+use crate::error::Bound;
+use crate::integrator::{Integrator, Stage};
+use crate::law::{ContactLaw, Evaluation};
+use crate::mount::{Motion, Mount};
+use crate::parallel::Pool;
+use crate::particle::Particle;
+
+/// Candidates without a skin are listed up to this fraction of the smallest radius, so that they
+/// last over the stages of a step.
+const STAGE_MARGIN: f64 = 0.05;
+
+/// The most walls: each block of particles keeps a sum for each.
+const MOST_WALLS: u64 = 1 << 20;
+
+impl<C, L, M, D, I> Builder<C, L, M, D, I>
+where
+    C: Cavity,
+    L: ContactLaw,
+    M: Mount,
+    D: Detector,
+    I: Integrator,
+{
+    /// Checks everything, and builds the damper.
+    ///
+    /// # Errors
+    /// A [`BuildError`] for the first thing that cannot be: it holds the value and the bound.
+    pub fn build(mut self) -> Result<Damper<C, L, M, D, I>, BuildError> {
+        self.check_numbers()?;
+        self.check_counts()?;
+        self.check_particles()?;
+        let numbers = self.order_by_cavity();
+        let planar = self.cavities.iter().all(Cavity::is_planar);
+        let particles = Particles::new(&self.particles, numbers, planar);
+        let coefficients = Coefficients::new(&self.law, &particles.kinds, self.wall_material)?;
+        let time_step = self.choose_time_step(coefficients.time_step_limit(&self.law)?)?;
+        let smallest = smallest_radius(&particles.kinds);
+        let reach = self.law.reach(time_step);
+        let rooms = self.rooms(smallest);
+        let walls = Engine::<C, L, M, D>::wall_count(&rooms);
+        let joints = match self.law.evaluation() {
+            Evaluation::EveryStage => Joints::default(),
+            _ => Joints::with_room(room_for(particles.len())),
+        };
+        let mount_state = MountState::new(&self.mount, rooms.len());
+        let mut engine = Engine {
+            scratch: Scratch::new(&particles, mount_state.acceleration.len()),
+            mount_state,
+            detectors: self.detectors,
+            mount: self.mount,
+            gravity: self.gravity,
+            blocks: Engine::<C, L, M, D>::make_blocks(particles.len(), walls),
+            memories: Pool::new(memories(particles.len())),
+            joints,
+            particles,
+            wall_loads: vec![WallLoad::default(); walls],
+            loads: vec![DVec3::ZERO; rooms.len()],
+            world: World {
+                law: self.law,
+                coefficients,
+                room_of_wall: room_of_wall(&rooms),
+                rooms,
+                reach,
+                stamp: 0,
+                time_step,
+            },
+            time: 0.0,
+            detections: 0,
+            since_sort: 0,
+            overlap_limit: self.overlap_limit * smallest,
+            contained: self.contained,
+        };
+        engine.start(self.initial_overlap * smallest)?;
+        Ok(Damper {
+            setup: Setup::new(&engine, time_step),
+            engine,
+            integrator: self.integrator,
+            clock: Clock::default(),
+            time_step,
+        })
+    }
+
+    fn check_numbers(&self) -> Result<(), BuildError> {
+        for component in self.gravity.to_array() {
+            Bound::Finite.check("gravity (m/s^2)", component)?;
+        }
+        if let Some(time_step) = self.time_step {
+            Bound::Positive.check("time step (s)", time_step)?;
+        }
+        Bound::NonNegative.check(
+            "initial overlap (fraction of a radius)",
+            self.initial_overlap,
+        )?;
+        if self.overlap_limit.is_nan() || self.overlap_limit <= 0.0 {
+            Bound::Positive.check("overlap limit (fraction of a radius)", self.overlap_limit)?;
+        }
+        if self.cavities.iter().any(Cavity::is_planar) {
+            in_plane("gravity", self.gravity)?;
+        }
+        Ok(())
+    }
+
+    /// Counts particles and walls, and hands out detectors.
+    fn check_counts(&mut self) -> Result<(), BuildError> {
+        let limit = u32::MAX as usize - BLOCK;
+        if self.particles.len() > limit {
+            return Err(BuildError::TooManyParticles {
+                count: self.particles.len(),
+                limit,
+            });
+        }
+        let walls = self.cavities.iter().map(|cavity| u64::from(cavity.walls()));
+        let walls = walls.sum();
+        if walls > MOST_WALLS {
+            return Err(BuildError::TooManyWalls {
+                count: walls,
+                limit: MOST_WALLS,
+            });
+        }
+        if let ([detector], Some(copy)) = (&self.detectors[..], self.copy) {
+            let more = self.cavities.len() - 1;
+            let copies: Vec<D> = std::iter::repeat_with(|| copy(detector))
+                .take(more)
+                .collect();
+            self.detectors.extend(copies);
+        }
+        if self.detectors.len() != self.cavities.len() {
+            return Err(BuildError::DetectorCount {
+                detectors: self.detectors.len(),
+                cavities: self.cavities.len(),
+            });
+        }
+        Ok(())
+    }
+
+    fn check_particles(&self) -> Result<(), BuildError> {
+        for (number, particle) in self.particles.iter().enumerate() {
+            check_particle(particle).map_err(|error| BuildError::Particle {
+                particle: number,
+                error,
+            })?;
+            let Some(cavity) = self.cavities.get(particle.cavity as usize) else {
+                return Err(BuildError::UnknownCavity {
+                    particle: number,
+                    cavity: particle.cavity,
+                    cavities: self.cavities.len(),
+                });
+            };
+            if cavity.is_planar() {
+                in_plane("particle position", particle.position)?;
+                in_plane("particle velocity", particle.velocity)?;
+                for spin in [particle.spin.x, particle.spin.y] {
+                    if spin != 0.0 {
+                        return Err(BuildError::OutOfPlane {
+                            quantity: "particle spin",
+                            value: particle.spin,
+                        });
+                    }
+                }
+            }
+            let [low, high] = cavity.bounds();
+            let extent = high - low;
+            let room = if cavity.is_planar() {
+                extent.x.min(extent.y)
+            } else {
+                extent.min_element()
+            };
+            if 2.0 * particle.radius > room {
+                return Err(BuildError::TooLarge {
+                    particle: number,
+                    diameter: 2.0 * particle.radius,
+                    room,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Orders the particles by cavity; returns their numbers.
+    fn order_by_cavity(&mut self) -> Vec<u32> {
+        let mut numbers: Vec<u32> = (0..self.particles.len() as u32).collect();
+        numbers.sort_by_key(|number| self.particles[*number as usize].cavity);
+        self.particles = numbers
+            .iter()
+            .map(|number| self.particles[*number as usize])
+            .collect();
+        numbers
+    }
+
+    fn choose_time_step(&self, limit: f64) -> Result<f64, BuildError> {
+        match self.time_step {
+            Some(time_step) if time_step > limit => {
+                Err(BuildError::TimeStepTooLong { time_step, limit })
+            }
+            Some(time_step) => Ok(time_step),
+            None if limit.is_finite() => Ok(
+                Bound::Positive.check("time step (s), half of the law's limit,", 0.5 * limit)?
+            ),
+            None => Err(BuildError::NoTimeStep),
+        }
+    }
+
+    fn rooms(&mut self, smallest_radius: f64) -> Vec<Room<C>> {
+        let (mut slot, mut wall) = (0, 0);
+        let mut rooms = Vec::new();
+        for (number, cavity) in std::mem::take(&mut self.cavities).into_iter().enumerate() {
+            let own = |particle: &&Particle| particle.cavity as usize == number;
+            let end = slot + self.particles.iter().filter(own).count();
+            let walls = cavity.walls();
+            let margin = if smallest_radius.is_finite() {
+                let skin = self.detectors[number].skin(smallest_radius);
+                skin.max(STAGE_MARGIN * smallest_radius)
+            } else {
+                0.0
+            };
+            rooms.push(Room {
+                cavity,
+                slots: slot..end,
+                first_wall: wall,
+                motion: Motion::default(),
+                margin,
+            });
+            slot = end;
+            wall += walls;
+        }
+        rooms
+    }
+}
+
+/// Number of the room of each wall.
+fn room_of_wall<C: Cavity>(rooms: &[Room<C>]) -> Vec<u32> {
+    let rooms = rooms.iter().zip(0..);
+    rooms
+        .flat_map(|(room, number)| (0..room.cavity.walls()).map(move |_| number))
+        .collect()
+}
+
+fn check_particle(particle: &Particle) -> Result<(), crate::ValueError> {
+    Bound::Positive.check("radius (m)", particle.radius)?;
+    Bound::Positive.check("mass (kg)", particle.mass)?;
+    // Their reciprocals have to be finite.
+    let smallest = Bound::AtLeast(f64::MIN_POSITIVE);
+    smallest.check("mass (kg)", particle.mass)?;
+    smallest.check("moment of inertia (kg m^2)", particle.inertia())?;
+    for (quantity, vector) in [
+        ("position (m)", particle.position),
+        ("velocity (m/s)", particle.velocity),
+        ("spin (rad/s)", particle.spin),
+    ] {
+        for component in vector.to_array() {
+            Bound::Finite.check(quantity, component)?;
+        }
+    }
+    Ok(())
+}
+
+fn in_plane(quantity: &'static str, value: DVec3) -> Result<(), BuildError> {
+    if value.z == 0.0 {
+        Ok(())
+    } else {
+        Err(BuildError::OutOfPlane { quantity, value })
+    }
+}
+
+impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
+    /// Places the containers and the particles in them, refuses overlaps of more than `allowed` (m),
+    /// and evaluates the first accelerations.
+    fn start(&mut self, allowed: f64) -> Result<(), BuildError> {
+        for (cavity, room) in self.world.rooms.iter().enumerate() {
+            if room.cavity.is_planar() {
+                // A mount that leaves the plane shows it in how it yields.
+                let mobility = self.mount.mobility(cavity);
+                in_plane("axis of the mount", mobility.z_axis + mobility.row(2))?;
+            }
+        }
+        self.place_containers(0.0)?;
+        let local: Vec<DVec3> = self.particles.position.iter().collect();
+        for (room, detector) in self.world.rooms.iter().zip(&mut self.detectors) {
+            let slots = room.slots.clone();
+            let bed = Bed::new(
+                &local[slots.clone()],
+                &self.particles.radius[slots],
+                room.cavity.bounds(),
+            )
+            .in_plane(room.cavity.is_planar())
+            .with_margin(room.margin + self.world.reach);
+            detector.prepare(&bed)?;
+        }
+        for room in &self.world.rooms {
+            for slot in room.slots.clone() {
+                let position = local[slot] + room.motion.position;
+                self.particles.position.set(slot, position);
+            }
+        }
+        self.sort();
+        self.find_contacts(true)?;
+        self.check_initial_overlaps(allowed)?;
+        if self.world.law.evaluation() == Evaluation::EveryStage {
+            self.evaluate(0.0, 0.0, Stage::Trial, false, &mut ())?;
+        } else {
+            self.accelerate_mount(0.0);
+        }
+        Ok(())
+    }
+
+    fn check_initial_overlaps(&self, limit: f64) -> Result<(), BuildError> {
+        let scene = self.world.scene(&self.particles, 0.0);
+        for block in &self.blocks {
+            let mut pairs = block.overlapping_pairs(&scene);
+            if let Some((overlap, first, second)) = pairs.find(|pair| pair.0 > limit) {
+                return Err(BuildError::InitialOverlap {
+                    first: self.particles.number[first] as usize,
+                    second: self.particles.number[second] as usize,
+                    overlap,
+                    limit,
+                });
+            }
+            let mut walls = block.overlapping_walls(&scene);
+            if let Some((overlap, slot, wall)) = walls.find(|wall| wall.0 > limit) {
+                let room = scene.room_of_wall(wall);
+                return Err(BuildError::OutsideCavity {
+                    particle: self.particles.number[slot] as usize,
+                    position: self.particles.position.get(slot) - room.motion.position,
+                    wall: wall - room.first_wall,
+                    overlap,
+                    limit,
+                });
+            }
+        }
+        Ok(())
+    }
+}
