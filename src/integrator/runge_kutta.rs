@@ -1,4 +1,4 @@
-use super::{Columns, Integrator, Motions, Stage, System};
+use super::{Columns, Integrator, Stage, System};
 use crate::damper::StepError;
 use crate::parallel::{update, update_by_two};
 
@@ -10,12 +10,11 @@ use crate::parallel::{update, update_by_two};
 /// and a half of it at six.
 #[derive(Debug, Clone, Default)]
 pub struct RungeKutta4 {
-    translation: Tableau,
-    rotation: Tableau,
-    mount: Tableau,
+    groups: [Tableau; 3],
 }
 
-/// Positions and velocities at the start of a step, and the weighted sums of the slopes.
+/// Of a group of coordinates, positions and velocities at the start of a step, and the weighted sums
+/// of the slopes.
 #[derive(Debug, Clone, Default)]
 struct Tableau {
     position: Weighted,
@@ -85,32 +84,20 @@ impl Tableau {
 
 impl Integrator for RungeKutta4 {
     fn step<S: System>(&mut self, system: &mut S, time_step: f64) -> Result<(), StepError> {
-        let motions = system.motions();
-        self.translation.begin(&motions.translation);
-        self.rotation.begin(&motions.rotation);
-        self.mount.begin(&motions.mount);
-
+        let groups = &mut self.groups;
+        for (tableau, columns) in groups.iter_mut().zip(system.motions().all()) {
+            tableau.begin(&columns);
+        }
         let (sixth, third, half) = (time_step / 6.0, time_step / 3.0, time_step / 2.0);
         for (weight, reach) in [(sixth, half), (third, half), (third, time_step)] {
-            let Motions {
-                translation,
-                rotation,
-                mount,
-            } = system.motions();
-            self.translation.stage(translation, weight, reach);
-            self.rotation.stage(rotation, weight, reach);
-            self.mount.stage(mount, weight, reach);
+            for (tableau, columns) in groups.iter_mut().zip(system.motions().all()) {
+                tableau.stage(columns, weight, reach);
+            }
             system.evaluate(reach, Stage::Trial)?;
         }
-
-        let Motions {
-            translation,
-            rotation,
-            mount,
-        } = system.motions();
-        self.translation.finish(translation, sixth);
-        self.rotation.finish(rotation, sixth);
-        self.mount.finish(mount, sixth);
+        for (tableau, columns) in groups.iter_mut().zip(system.motions().all()) {
+            tableau.finish(columns, sixth);
+        }
         system.evaluate(time_step, Stage::End)
     }
 }
