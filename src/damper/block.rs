@@ -20,8 +20,20 @@ mod evaluate;
 mod list;
 mod report;
 
-/// How many slots make a block: its columns fit into a second-level cache.
+/// How many slots make a block at the least; a bed of no more is one block.
 pub(crate) const BLOCK: usize = 4096;
+
+/// How many make one at the most: columns of a larger one leave the nearer caches.
+const LARGEST_BLOCK: usize = 16_384;
+
+/// How many blocks there are before they grow beyond the least: work for as many threads.
+const BLOCKS: usize = 16;
+
+/// How many slots make a block in a bed of `particles`. The larger blocks are, the fewer contacts lie
+/// across two of them.
+pub(crate) fn block_size(particles: usize) -> usize {
+    (particles / BLOCKS).clamp(BLOCK, LARGEST_BLOCK)
+}
 
 /// How many candidates there is room for from the start. The count of a small bed fluctuates: room for
 /// as many as it has when it is dense spares it the allocations that would follow.

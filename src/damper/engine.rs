@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use super::block::{BLOCK, Block, Memories, Place, room_for};
+use super::block::{Block, Memories, Place, block_size, room_for};
 use super::error::StepError;
 use super::impulse::Joints;
 use super::particles::Particles;
@@ -132,9 +132,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
     /// Blocks for `count` slots.
     pub(crate) fn make_blocks(count: usize, walls: usize) -> Vec<Block<L>> {
+        let size = block_size(count);
         (0..count)
-            .step_by(BLOCK)
-            .map(|start| Block::new(start..count.min(start + BLOCK), walls))
+            .step_by(size)
+            .map(|start| Block::new(start..count.min(start + size), walls))
             .collect()
     }
 
