@@ -40,7 +40,7 @@ const TOP_SPEED: f64 = 5.0;
 ///   energy from the bed, and gives back what is too much: a pile at rest does not move at all. It is
 ///   trusted to bear twice what it was in the step before, and its own weight, so that an impact is
 ///   not taken for rest, and half of a change is believed per step. Overlaps beyond 3 % of the radius
-///   are given back by a tenth per step, at w/5 at the most.
+///   are given back by a tenth per step, at w/5 at the most, and those beyond 5 % at v - w.
 /// - Coulomb friction: the tangential impulse ends the slip if it can, and is mu J otherwise; it
 ///   turns the particles. Where the materials resist rolling, a couple of at most `mu_r r* J` does so;
 ///   the two are found together, so that what they can hold rests.

@@ -30,6 +30,10 @@ const LIFT_SPEED: f64 = 0.2;
 /// Overlap that resting bodies keep, as a part of the smaller radius.
 const KEPT: f64 = 0.03;
 
+/// Overlap, as a part of the smaller radius, beyond which bodies that come faster than one step of free
+/// fall part by that much slower at the most: a bed that is pressed for long does not sink into itself.
+const DEEP: f64 = 0.05;
+
 /// What [`RestitutionImpulse`](crate::RestitutionImpulse) prepares for two bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RestitutionCoefficients {
@@ -205,7 +209,10 @@ impl RestitutionCoefficients {
         }
         let sunk = contact.overlap - KEPT * self.smaller_radius;
         let lift = if sunk > 0.0 {
-            (LIFT * sunk / contact.elapsed).min(LIFT_SPEED * contact.fall)
+            let deep = sunk - (DEEP - KEPT) * self.smaller_radius;
+            let rate = LIFT / contact.elapsed;
+            let slow = (rate * sunk).min(LIFT_SPEED * contact.fall);
+            slow.max((ahead - contact.fall).min(rate * deep))
         } else {
             0.0
         };
