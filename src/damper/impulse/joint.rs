@@ -302,7 +302,7 @@ impl<L: ContactLaw> Joints<L> {
             let towards = position.get(i) - position.get(j);
             let (normal, overlap) = meeting::<PLANAR>(towards, radii);
             deepest = larger(deepest, overlap);
-            // Slots ascend, and so do their cavities.
+            // Pairs come in the order of their lower slots, and so of their cavities.
             while i >= scene.rooms[cavity].slots.end {
                 cavity += 1;
             }
