@@ -11,7 +11,7 @@ mod build;
 /// Overlaps up to this fraction of the smallest radius are taken for contacts of a settled bed.
 const INITIAL_OVERLAP: f64 = 0.05;
 
-/// Puts a [`Damper`] together.
+/// Puts a [`Damper`](crate::Damper) together.
 #[derive(Debug, Clone)]
 #[must_use]
 pub struct Builder<C, L, M = Driven, D = Skin<LinkedCells>, I = VelocityVerlet> {
@@ -168,7 +168,7 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
     }
 
     /// Whether a particle whose centre passes a wall is an error (the default), or merely
-    /// [counted](Damper::outside).
+    /// [counted](crate::Damper::outside).
     pub const fn contained(mut self, contained: bool) -> Self {
         self.contained = contained;
         self
