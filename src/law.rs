@@ -27,7 +27,7 @@ pub use hertz_tsuji::HertzTsuji;
 /// The greater of two numbers, `least` if either is not one. One instruction where `f64::max` takes
 /// five.
 #[inline(always)]
-const fn at_least(value: f64, least: f64) -> f64 {
+pub(crate) const fn at_least(value: f64, least: f64) -> f64 {
     if value > least { value } else { least }
 }
 

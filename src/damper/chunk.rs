@@ -13,7 +13,7 @@ use super::scene::{Scene, at_surface, meeting, resolve};
 use super::vectors::{axial, polar};
 use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce, Edge};
-use crate::law::ContactLaw;
+use crate::law::{ContactLaw, at_least};
 
 /// How many contacts are side by side at the most.
 pub(crate) const CHUNK: usize = 32;
@@ -297,7 +297,7 @@ impl<L: ContactLaw> Chunk<L> {
     /// Has `law` answer once more where bodies may have met or may part within the step.
     /// `acceleration` is that of a contact's first centre relative to its second body, as it was
     /// evaluated last (m/s^2).
-    pub(crate) fn mend_edges<const PAIRS: bool, const END: bool>(
+    pub(crate) fn mend_edges<const END: bool>(
         &mut self,
         law: &L,
         only: Option<&L::Coefficients>,
@@ -307,8 +307,7 @@ impl<L: ContactLaw> Chunk<L> {
         for n in 0..self.count.min(CHUNK) {
             if Edge::is_near(self.overlap[n], self.approach[n], moment.time_step) {
                 let kind = only.copied().unwrap_or_else(|| self.kinds[n]);
-                let (contact, answer, memory) =
-                    self.ask::<PAIRS>(law, &kind, n, moment, acceleration(n));
+                let (contact, answer, memory) = self.ask(law, &kind, n, moment, acceleration(n));
                 self.note::<false, true>(n, contact.normal, &answer);
                 if END {
                     self.advanced[n] = memory;
@@ -319,7 +318,7 @@ impl<L: ContactLaw> Chunk<L> {
 
     /// A contact, the answer of the `law` with coefficients `kind`, and what the contact remembers
     /// at the end of the step.
-    pub(crate) fn ask<const PAIRS: bool>(
+    pub(crate) fn ask(
         &self,
         law: &L,
         kind: &L::Coefficients,
@@ -367,7 +366,7 @@ impl<L: ContactLaw> Chunk<L> {
     #[inline(always)]
     pub(crate) fn largest_overlap(&self) -> f64 {
         let overlaps = &self.overlap[..self.count.min(CHUNK)];
-        let larger = |a: f64, b: &f64| if *b > a { *b } else { a };
-        overlaps.iter().fold(0.0, larger)
+        let deeper = |deepest, overlap: &f64| at_least(*overlap, deepest);
+        overlaps.iter().fold(0.0, deeper)
     }
 }

@@ -220,11 +220,6 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             let turn = mover.spin - start.spin;
             particles.angular_acceleration.set(slot, turn * rate);
         }
-        // Nothing changes them until the next step.
-        let [previous, turning] = &mut self.scratch.previous;
-        let (held, spinning) = (&particles.acceleration, &particles.angular_acceleration);
-        previous.flat_mut().copy_from_slice(held.flat());
-        turning.flat_mut().copy_from_slice(spinning.flat());
         if particles.acceleration.is_finite() && particles.angular_acceleration.is_finite() {
             Ok(())
         } else {

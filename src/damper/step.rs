@@ -5,7 +5,7 @@ use super::error::StepError;
 use crate::cavity::Cavity;
 use crate::detector::Detector;
 use crate::integrator::{Columns, Motions, Stage, System};
-use crate::law::ContactLaw;
+use crate::law::{ContactLaw, Evaluation};
 use crate::mount::Mount;
 use crate::observer::Observer;
 
@@ -30,7 +30,11 @@ where
         let particles = &mut self.engine.particles;
         let mount = &mut self.engine.mount_state;
         let scratch = &self.engine.scratch;
-        let [previous, turning] = &scratch.previous;
+        let [previous, turning] = match self.engine.world.law.evaluation() {
+            Evaluation::EveryStage => scratch.previous.each_ref(),
+            // Impulses hold over the step.
+            _ => [&particles.acceleration, &particles.angular_acceleration],
+        };
         Motions {
             translation: Columns {
                 position: particles.position.flat_mut(),

@@ -183,28 +183,22 @@ impl<'a> Rows<'a> {
     #[inline(always)]
     pub(crate) fn polar<const PLANAR: bool>(&self, count: usize) -> Polar<'a, PLANAR> {
         let (plane, space): (&[[f64; 2]], &[[f64; 3]]) = if PLANAR {
-            (self.values.as_chunks().0, &[])
+            (&self.values.as_chunks().0[..count], &[])
         } else {
-            (&[], self.values.as_chunks().0)
+            (&[], &self.values.as_chunks().0[..count])
         };
-        Polar {
-            plane: &plane[..if PLANAR { count } else { 0 }],
-            space: &space[..if PLANAR { 0 } else { count }],
-        }
+        Polar { plane, space }
     }
 
     /// Spins or torques of `count` bodies, for loops. If `PLANAR`, they turn in that plane.
     #[inline(always)]
     pub(crate) fn axial<const PLANAR: bool>(&self, count: usize) -> Axial<'a, PLANAR> {
         let (plane, space): (&[f64], &[[f64; 3]]) = if PLANAR {
-            (self.values, &[])
+            (&self.values[..count], &[])
         } else {
-            (&[], self.values.as_chunks().0)
+            (&[], &self.values.as_chunks().0[..count])
         };
-        Axial {
-            plane: &plane[..if PLANAR { count } else { 0 }],
-            space: &space[..if PLANAR { 0 } else { count }],
-        }
+        Axial { plane, space }
     }
 }
 

@@ -37,22 +37,21 @@ impl<L: ContactLaw> Block<L> {
         self.forget();
         self.contacts = self.contacts_in_reach();
         if scene.planar {
-            let mut sums = Sums::<true>::new(force, torque);
-            self.evaluate_lists::<C, O, END, true>(scene, &mut sums, observer);
-            sums.accelerate(scene, self.slots.clone(), gravity)
+            let sums = Sums::<true>::new(force, torque);
+            self.evaluate_lists::<C, O, END, true>(scene, gravity, sums, observer)
         } else {
-            let mut sums = Sums::<false>::new(force, torque);
-            self.evaluate_lists::<C, O, END, false>(scene, &mut sums, observer);
-            sums.accelerate(scene, self.slots.clone(), gravity)
+            let sums = Sums::<false>::new(force, torque);
+            self.evaluate_lists::<C, O, END, false>(scene, gravity, sums, observer)
         }
     }
 
     fn evaluate_lists<C: Cavity, O: Observer, const END: bool, const PLANAR: bool>(
         &mut self,
         scene: &Scene<'_, C, L>,
-        sums: &mut Sums<'_, PLANAR>,
+        gravity: DVec3,
+        mut sums: Sums<'_, PLANAR>,
         observer: &mut O,
-    ) {
+    ) -> bool {
         let base = self.slots.start;
         let chunk = &mut *self.chunk;
         let mut deepest = 0.0_f64;
@@ -115,6 +114,7 @@ impl<L: ContactLaw> Block<L> {
             }
         }
         self.largest_overlap = deepest;
+        sums.accelerate(scene, self.slots.clone(), gravity)
     }
 }
 
@@ -212,7 +212,7 @@ fn answer_pairs<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
     chunk.answer::<true, END, PLANAR>(scene.law, only, kinds, scene.elapsed);
     if scene.law.has_edges() {
         let acceleration = |n: usize| acceleration_of_pair(scene, bodies[n]);
-        chunk.mend_edges::<true, END>(scene.law, only, scene.moment(), acceleration);
+        chunk.mend_edges::<END>(scene.law, only, scene.moment(), acceleration);
     }
     if END {
         list.keep_run(run, scene.stamp.wrapping_add(1), chunk.advanced());
@@ -238,7 +238,7 @@ fn answer_walls<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
     chunk.answer::<false, END, PLANAR>(scene.law, only, kinds, scene.elapsed);
     if scene.law.has_edges() {
         let acceleration = |n: usize| scene.acceleration.get(bodies[n][0] as usize);
-        chunk.mend_edges::<false, END>(scene.law, only, scene.moment(), acceleration);
+        chunk.mend_edges::<END>(scene.law, only, scene.moment(), acceleration);
     }
     if END {
         list.keep_run(run, scene.stamp.wrapping_add(1), chunk.advanced());

@@ -21,17 +21,14 @@ pub(super) fn report_pairs<C: Cavity, L: ContactLaw>(
     observer: &mut impl Observer,
 ) {
     for (n, number) in run.enumerate() {
-        let (bodies, place) = (
-            list.contacts.bodies()[number],
-            list.contacts.places()[number],
-        );
+        let bodies = list.contacts.bodies()[number];
+        let place = list.contacts.places()[number];
         let (slot, other) = (bodies[0] as usize, bodies[1] as usize);
         let prepared = list.prepared(place);
         let (first, second) = (scene.species[slot], scene.species[other]);
         let kind = scene.coefficients.pair(first, second, prepared);
         let acceleration = acceleration_of_pair(scene, bodies);
-        let (contact, force, memory) =
-            chunk.ask::<true>(scene.law, &kind, n, scene.moment(), acceleration);
+        let (contact, force, memory) = chunk.ask(scene.law, &kind, n, scene.moment(), acceleration);
         observer.contact(&ContactEvent {
             particle: scene.number[slot] as usize,
             partner: Partner::Particle(scene.number[other] as usize),
@@ -58,8 +55,7 @@ pub(super) fn report_walls<C: Cavity, L: ContactLaw>(
         let (slot, wall) = (*slot as usize, *wall);
         let kind = scene.coefficients.wall(scene.species[slot]);
         let acceleration = scene.acceleration.get(slot);
-        let (contact, force, memory) =
-            chunk.ask::<false>(scene.law, kind, n, scene.moment(), acceleration);
+        let (contact, force, memory) = chunk.ask(scene.law, kind, n, scene.moment(), acceleration);
         observer.contact(&ContactEvent {
             particle: scene.number[slot] as usize,
             partner: Partner::Wall(wall - scene.room_of_wall(wall).first_wall),

@@ -11,13 +11,7 @@ use crate::damper::candidates::{Candidates, make_room};
 use crate::damper::particles::Particles;
 use crate::damper::scene::{Scene, World, at_surface, meeting, resolve};
 use crate::damper::vectors::{axial, polar};
-use crate::law::ContactLaw;
-
-/// The larger of two numbers, `a` if either is not one.
-#[inline(always)]
-pub(super) const fn larger(a: f64, b: f64) -> f64 {
-    if b > a { b } else { a }
-}
+use crate::law::{ContactLaw, at_least};
 
 /// A particle between impulses.
 #[derive(Debug, Clone, Copy)]
@@ -301,7 +295,7 @@ impl<L: ContactLaw> Joints<L> {
             let radii = [scene.radius[i], scene.radius[j]];
             let towards = position.get(i) - position.get(j);
             let (normal, overlap) = meeting::<PLANAR>(towards, radii);
-            deepest = larger(deepest, overlap);
+            deepest = at_least(overlap, deepest);
             // Pairs come in the order of their lower slots, and so of their cavities.
             while i >= scene.rooms[cavity].slots.end {
                 cavity += 1;
@@ -341,7 +335,7 @@ impl<L: ContactLaw> Joints<L> {
             let point = scene.wall_point(wall, scene.position.get(slot));
             let radius = scene.radius[slot];
             let overlap = radius - point.distance;
-            deepest = larger(deepest, overlap);
+            deepest = at_least(overlap, deepest);
             if overlap > radius {
                 escaped(slot, wall);
             }

@@ -3,14 +3,14 @@
 // Small functions of the innermost loop: the compiler must see the loop whole.
 #![allow(clippy::inline_always)]
 
-use super::joint::{Joints, kind_of_pair, larger};
+use super::joint::{Joints, kind_of_pair};
 use super::{STILL, STIRRED};
 use crate::cavity::Cavity;
 use crate::contact::ContactForce;
 use crate::damper::engine::Engine;
 use crate::damper::scene::World;
 use crate::detector::Detector;
-use crate::law::ContactLaw;
+use crate::law::{ContactLaw, at_least};
 use crate::mount::Mount;
 
 /// A round through the joints.
@@ -49,7 +49,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     fn strike_all<const PLANAR: bool>(&mut self, round: &Round) -> f64 {
         let mut largest = self.joints.strike_pairs::<C, PLANAR>(&self.world, round);
         for number in 0..self.joints.walls.joints.len() {
-            largest = larger(largest, self.strike_wall::<PLANAR>(number, round));
+            largest = at_least(self.strike_wall::<PLANAR>(number, round), largest);
         }
         largest
     }
@@ -134,7 +134,7 @@ impl<L: ContactLaw> Joints<L> {
             let [first, second] = self.pairs.joints[number].bodies.map(changed);
             if first || second {
                 let speed = self.strike_pair::<C, PLANAR>(world, number, round);
-                largest = larger(largest, speed);
+                largest = at_least(speed, largest);
             }
         }
         largest
