@@ -1,4 +1,4 @@
-//! Contact laws: time per force, averaged over contacts of different overlap and speed.
+//! Force laws: time per force, averaged over contacts of different overlap and speed.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -6,8 +6,7 @@ use std::time::Duration;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use particle_damper::glam::DVec3;
 use particle_damper::{
-    Bodies, Body, Contact, ContactLaw, Friction, HertzMindlin, HertzTsuji, Material, Materials,
-    RestitutionImpulse,
+    Bodies, Body, Contact, ForceLaw, Friction, HertzMindlin, HertzTsuji, Material, Materials,
 };
 
 /// Contacts of two of the paper's spheres, approaching and parting, sliding either way.
@@ -23,7 +22,7 @@ fn contacts() -> Vec<Contact> {
         .collect()
 }
 
-fn measure<L: ContactLaw>(c: &mut Criterion, name: &str, law: &L) {
+fn measure<L: ForceLaw>(c: &mut Criterion, name: &str, law: &L) {
     let sphere = Body::sphere(3e-3, 0.2e-3, Materials::FIRST);
     let coefficients = law.coefficients(&Bodies::new(sphere, sphere)).unwrap();
     let contacts = contacts();
@@ -54,18 +53,6 @@ fn laws(c: &mut Criterion) {
         &tsuji.friction(Friction::as_printed()),
     );
     measure(c, "hertz_mindlin", &HertzMindlin::new(acrylic));
-    let restitution = RestitutionImpulse::new(acrylic);
-    measure(
-        c,
-        "restitution_without_friction",
-        &restitution.clone().friction(false),
-    );
-    measure(c, "restitution", &restitution);
-    measure(
-        c,
-        "restitution_literal",
-        &RestitutionImpulse::literal(acrylic),
-    );
 }
 
 criterion_group!(benches, laws);

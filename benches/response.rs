@@ -8,7 +8,7 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use particle_damper::response::Point;
 use particle_damper::{ContactLaw, HertzTsuji, Material, ResponseCurve, RestitutionImpulse};
 
-fn measure<L: ContactLaw>(c: &mut Criterion, name: &str, curve: &ResponseCurve<L>) {
+fn measure<L: ContactLaw + Clone>(c: &mut Criterion, name: &str, curve: &ResponseCurve<L>) {
     let mut group = c.benchmark_group("response");
     group
         .sample_size(10)

@@ -14,7 +14,7 @@ mod output;
 use std::error::Error;
 
 use chart::{Chart, Line};
-use particle_damper::glam::{DMat3, DVec3};
+use particle_damper::glam::DVec3;
 use particle_damper::{
     Damper, Filling, Material, Motion, Mount, Particle, RestitutionImpulse, Slot,
 };
@@ -51,12 +51,6 @@ impl Beam {
             load,
             release,
         }
-    }
-
-    /// Velocity of the tip per unit impulse on it, and what the load leaves of that, 1/kg.
-    fn yielding(&self) -> f64 {
-        let bare: f64 = self.tip.iter().map(|tip| tip * tip).sum();
-        bare / (1.0 + self.load * bare)
     }
 
     fn at_tip(&self, modes: &[f64]) -> f64 {
@@ -96,17 +90,6 @@ impl Mount for Beam {
         for (n, tip) in self.tip.iter().enumerate() {
             a[n] -= tip * inertia;
         }
-    }
-
-    fn strike(&self, _cavity: usize, impulse: DVec3, v: &mut [f64]) {
-        let bare: f64 = self.tip.iter().map(|tip| tip * tip).sum();
-        for (n, tip) in self.tip.iter().enumerate() {
-            v[n] += tip * impulse.y / (1.0 + self.load * bare);
-        }
-    }
-
-    fn mobility(&self, _cavity: usize) -> DMat3 {
-        DMat3::from_diagonal(DVec3::Y * self.yielding())
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a contact law sees of two bodies that touch, and what it answers.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use crate::material::MaterialId;
 
@@ -85,22 +85,10 @@ pub struct Contact {
     /// Velocity of the first body's surface relative to the second's at the point of contact, spin
     /// included, in m/s.
     pub velocity: DVec3,
-    /// What `velocity` becomes over the step by everything but contacts (gravity, and what moves
-    /// the container), in m/s. Differs from `velocity` for impulses at walls alone.
-    pub velocity_ahead: DVec3,
-    /// Speed that everything but contacts (gravity, and what moves the container) gives a free
-    /// particle relative to its container over the step, in m/s: bodies that approach no faster than
-    /// so may be at rest. Laws that are evaluated at every stage see zero.
-    pub fall: f64,
     /// Angular velocities of the two bodies in rad/s; zero for a wall.
     pub spins: [DVec3; 2],
-    /// Time since the contact's memory was advanced, in s. For an impulse this is the length of the
-    /// step over which its force is held.
+    /// Time since the contact's memory was advanced, in s; under an impulse law the length of the step.
     pub elapsed: f64,
-    /// Velocity that a wall gains per unit impulse on it, in 1/kg, as the mount says; zero if it does
-    /// not yield, for a pair (the law knows its masses), and for laws that are evaluated at every
-    /// stage.
-    pub mobility: DMat3,
 }
 
 impl Contact {
@@ -112,11 +100,8 @@ impl Contact {
             normal,
             overlap,
             velocity,
-            velocity_ahead: velocity,
-            fall: 0.0,
             spins: [DVec3::ZERO; 2],
             elapsed: 0.0,
-            mobility: DMat3::ZERO,
         }
     }
 
@@ -168,6 +153,7 @@ impl Edge {
 
 /// The force of a contact on its first body; the second body feels the opposite.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ContactForce {
     /// Along the normal, in N: positive pushes the bodies apart.
@@ -177,6 +163,21 @@ pub struct ContactForce {
     /// A couple besides (rolling resistance), in N m: on the first body, and reversed on the
     /// second.
     pub couple: DVec3,
+}
+
+/// The force that a contact under an impulse law bore over a step: what it remembers, and what the next
+/// step starts from.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct HeldForce {
+    /// On the first body.
+    pub force: ContactForce,
+    /// Normal force in N that it bore over this step and the one before it, both: none after an impact,
+    /// however hard.
+    pub load: f64,
+    /// Acceleration of a free body relative to the container in m/s^2: loads at rest grow with it.
+    pub gravity: f64,
 }
 
 /// What a contact holds by elasticity, and can give back.
@@ -214,13 +215,5 @@ impl ContactForce {
             tangential,
             couple: DVec3::ZERO,
         }
-    }
-
-    /// Adds another force.
-    #[inline]
-    pub(crate) fn add(&mut self, other: &Self) {
-        self.normal += other.normal;
-        self.tangential += other.tangential;
-        self.couple += other.couple;
     }
 }

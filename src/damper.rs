@@ -9,7 +9,7 @@ use crate::contact::Body;
 use crate::detector::{Detector, LinkedCells, Skin};
 use crate::error::Bound;
 use crate::integrator::{Integrator, VelocityVerlet};
-use crate::law::{ContactLaw, Evaluation};
+use crate::law::ContactLaw;
 use crate::mount::{Driven, Motion, Mount};
 use crate::observer::{Frame, Observer, View};
 use crate::particle::Particle;
@@ -20,15 +20,16 @@ mod candidates;
 mod chunk;
 mod clock;
 mod coefficients;
+mod contact_dynamics;
 mod detection;
 mod engine;
 mod error;
-mod impulse;
 mod particles;
 mod scene;
 mod setup;
 mod snapshot;
 mod sort;
+mod space;
 mod step;
 pub(crate) mod vectors;
 mod view;
@@ -42,6 +43,7 @@ pub use snapshot::{RestoreError, Snapshot};
 const MOST_STEPS: f64 = 1e9;
 
 use clock::Clock;
+use contact_dynamics::ContactSolver;
 use engine::Engine;
 use setup::Setup;
 use step::Step;
@@ -125,12 +127,7 @@ where
 
     fn advance<O: Observer>(&mut self, dt: f64, observer: &mut O) -> Result<(), StepError> {
         self.engine.sort_in_time()?;
-        let impulsive = self.engine.world.law.evaluation() != Evaluation::EveryStage;
-        if impulsive {
-            self.engine.strike(dt, observer)?;
-        } else {
-            self.engine.world.time_step = dt;
-        }
+        self.engine.begin(dt, observer)?;
         let mut step = Step {
             begin: self.clock.time(),
             engine: &mut self.engine,
@@ -138,11 +135,7 @@ where
             fresh: true,
         };
         self.integrator.step(&mut step, dt)?;
-        if impulsive {
-            self.engine.check_left_behind()?;
-        } else {
-            self.engine.world.stamp = self.engine.world.stamp.wrapping_add(1);
-        }
+        self.engine.end()?;
         self.clock.advance(dt);
         self.engine.time = self.clock.time();
         observer.step(&Frame::new(self.engine.time, dt, &self.engine));
@@ -282,7 +275,11 @@ where
         let blocks = self.engine.blocks.iter().map(block::Block::reserved_bytes);
         self.engine.particles.reserved_bytes()
             + self.engine.scratch.reserved_bytes()
-            + self.engine.joints.reserved_bytes()
+            + self
+                .engine
+                .solver
+                .as_ref()
+                .map_or(0, ContactSolver::reserved_bytes)
             + self.engine.memories.sum(block::reserved_by)
             + blocks.sum::<usize>()
     }

@@ -50,7 +50,7 @@
 //!
 //! | part | trait | at hand |
 //! |---|---|---|
-//! | contact law | [`ContactLaw`] | [`HertzTsuji`] (the paper's strict law), [`HertzMindlin`] (a tangential spring besides), [`RestitutionImpulse`] (the paper's approximate law, for coarse steps) |
+//! | contact law | [`ContactLaw`]: [`ForceLaw`] or [`ImpulseLaw`] | [`HertzTsuji`] (the paper's strict law) and [`HertzMindlin`] (a tangential spring besides) give forces; [`RestitutionImpulse`] (the paper's approximate law, for coarse steps) gives impulses |
 //! | contact detector | [`Detector`] | [`AllPairs`], [`CellGrid`] (the paper's cellular automaton), [`LinkedCells`]; [`Skin`] makes any of them last |
 //! | integrator | [`Integrator`] | [`VelocityVerlet`], [`RungeKutta4`] (the paper's) |
 //! | mount | [`Mount`] | [`SingleDof`] (the paper's oscillator), [`Driven`] (by a host), [`Prescribed`] |
@@ -61,14 +61,14 @@
 //!
 //! # What happens in a step
 //!
-//! 1. An impulse law strikes all contacts, with the velocities at the start of the step; its forces
-//!    hold until the end.
+//! 1. Under an impulse law the impulses of all contacts are worked out together
+//!    ([`SolverParameters`] has the stages); as forces they hold until the end of the step.
 //! 2. The integrator moves particles and mount. Whenever it asks for accelerations, the containers are
-//!    placed, the candidates that touch are listed, a stiff law answers each of them in an order that
-//!    does not depend on the detector, and the mount feels the sum.
+//!    placed; a force law answers each contact that touches, in an order that does not depend on the
+//!    detector; and the mount feels the sum.
 //! 3. Candidates are proposed anew by the detector when some particle has moved by half the skin.
-//! 4. At the last evaluation contacts advance their memory, and observers are told of them; then of
-//!    the end of the step.
+//! 4. Contacts advance their memory once, and observers are told of each once; then of the end of the
+//!    step.
 //!
 //! # Units, frames and signs
 //!
@@ -123,7 +123,7 @@ pub mod response;
 pub use glam;
 
 pub use cavity::{Cavity, Cuboid, Slot};
-pub use contact::{Bodies, Body, Contact, ContactForce, Edge, Stored};
+pub use contact::{Bodies, Body, Contact, ContactForce, Edge, HeldForce, Stored};
 pub use damper::{
     BuildError, Builder, Damper, Partner, Reaction, RestoreError, Snapshot, StepError, WallLoad,
 };
@@ -135,8 +135,9 @@ pub use error::{Bound, ValueError};
 pub use filling::{Filling, FillingError};
 pub use integrator::{Integrator, RungeKutta4, VelocityVerlet};
 pub use law::{
-    ContactLaw, Damping, ElasticImpact, Ending, Evaluation, Friction, HertzMindlin, HertzTsuji,
-    LawError, RestingForce, RestitutionImpulse, TangentialSpring,
+    ContactLaw, Damping, ElasticImpact, Ending, ForceLaw, Forces, Friction, HertzMindlin,
+    HertzTsuji, ImpulseLaw, Impulses, LawError, LawKind, RestitutionImpulse, SolverParameters,
+    SweepOrder, TangentialSpring,
 };
 pub use material::{Interaction, Material, MaterialId, Materials};
 pub use mount::{Driven, Motion, Mount, MountEnergy, Prescribed, SingleDof};

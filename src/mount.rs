@@ -1,6 +1,6 @@
 //! Mounts: what the container is fixed to, and how it moves.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 mod driven;
 mod single_dof;
@@ -66,16 +66,14 @@ impl MountEnergy {
 /// 2. [`motion`](Self::motion) of container `cavity` is a function of time and coordinates. Containers
 ///    translate; they do not turn.
 /// 3. [`accelerate`](Self::accelerate) solves the mount's equations of motion under `loads`, the
-///    forces (N) of the particles on each container. It is linear in the loads.
-/// 4. [`strike`](Self::strike) adds to the coordinates' velocities what an impulse (N s) on one
-///    container gives them, and [`mobility`](Self::mobility) is the same as a matrix: velocity of the
-///    container per unit impulse on it (1/kg). A prescribed motion keeps the defaults: nothing.
-/// 5. [`energy`](Self::energy) is for observers. A mount without coordinates keeps the default: an
+///    forces (N) of the particles on each container. It is linear in the loads: from that follows what an
+///    impulse on a container does. A mount with coordinates that no load moves is refused.
+/// 4. [`energy`](Self::energy) is for observers. A mount without coordinates keeps the default: an
 ///    [`EnergyLedger`](crate::EnergyLedger) counts the work of moving its containers by itself.
 ///
 /// Two equal masses on a line, coupled by a spring, with a container on each:
 /// ```
-/// use glam::{DMat3, DVec3};
+/// use glam::DVec3;
 /// use particle_damper::mount::{Motion, Mount};
 ///
 /// struct Pair {
@@ -94,12 +92,6 @@ impl MountEnergy {
 ///         let spring = self.stiffness * (x[1] - x[0]);
 ///         a[0] = (loads[0].x + spring) / self.mass;
 ///         a[1] = (loads[1].x - spring) / self.mass;
-///     }
-///     fn strike(&self, cavity: usize, impulse: DVec3, v: &mut [f64]) {
-///         v[cavity] += impulse.x / self.mass;
-///     }
-///     fn mobility(&self, _cavity: usize) -> DMat3 {
-///         DMat3::from_diagonal(DVec3::X / self.mass)
 ///     }
 /// }
 /// ```
@@ -125,14 +117,6 @@ pub trait Mount {
         _loads: &[DVec3],
         _accelerations: &mut [f64],
     ) {
-    }
-
-    /// Adds to `velocities` what `impulse` (N s) on the container of a cavity gives them.
-    fn strike(&self, _cavity: usize, _impulse: DVec3, _velocities: &mut [f64]) {}
-
-    /// Velocity of the container of a cavity per unit impulse on it, in 1/kg.
-    fn mobility(&self, _cavity: usize) -> DMat3 {
-        DMat3::ZERO
     }
 
     /// Energy and powers at an instant; zero unless said otherwise.
@@ -167,14 +151,6 @@ impl<M: Mount + ?Sized> Mount for &mut M {
         accelerations: &mut [f64],
     ) {
         (**self).accelerate(time, coordinates, velocities, loads, accelerations);
-    }
-
-    fn strike(&self, cavity: usize, impulse: DVec3, velocities: &mut [f64]) {
-        (**self).strike(cavity, impulse, velocities);
-    }
-
-    fn mobility(&self, cavity: usize) -> DMat3 {
-        (**self).mobility(cavity)
     }
 
     fn energy(&self, time: f64, coordinates: &[f64], velocities: &[f64]) -> MountEnergy {

@@ -28,16 +28,18 @@ pub struct ContactEvent {
     pub partner: Partner,
     /// Number of the cavity.
     pub cavity: usize,
-    /// The contact at the end of the step; for an impulse law, at the start, when it is struck.
+    /// The contact: under a force law at the end of the step. Under an impulse law with the velocities at
+    /// the start of the step, and normal and overlap where contacts are looked for, at its midpoint unless
+    /// the [solver](crate::SolverParameters::prediction) is set otherwise.
     pub contact: Contact,
-    /// The force on the particle.
+    /// The force on the particle: under a force law that at the end of the step, under an impulse law the
+    /// impulse over the time step, which holds over it.
     pub force: ContactForce,
     /// What the contact holds at the end of the step and can give back; nothing under an impulse law.
     pub stored: Stored,
-    /// The relative surface velocity (m/s) that the force works on. Under an impulse law it is the
-    /// mean of before and after the impulse, with half of what gravity and the container's motion
-    /// add over the step: `force` times it times the time step is exactly the kinetic energy that the
-    /// impulse gives. Else it is the velocity of `contact`.
+    /// The relative surface velocity (m/s) that the force works on. Under an impulse law it is the mean of
+    /// those at the start and at the end of the step: `force` times it times the time step is exactly the
+    /// energy that the contact gives. Else it is the velocity of `contact`.
     pub working_velocity: DVec3,
     /// The angular velocity (rad/s) of the first body relative to the second that the couple works
     /// on, likewise.
@@ -52,9 +54,9 @@ pub struct ContactEvent {
 ///
 /// # Implementing
 /// 1. [`wants_contacts`](Self::wants_contacts) is constant over a step. Only if it is true,
-/// 2. [`contact`](Self::contact) is called for each touching contact, in canonical order: once per
-///    step under a law that is evaluated at every stage, once per impulse under an impulse law, which
-///    may strike a contact several times in a step.
+/// 2. [`contact`](Self::contact) is called once per step for each contact, in an order that depends on the
+///    state alone: under a force law for each that touches, under an impulse law for each that was given
+///    an impulse. What the event holds under each kind is said at its fields.
 /// 3. [`step`](Self::step) is called once at the end of each accepted step, after its contacts; a
 ///    [drive](crate::Damper::drive) of several steps calls it for each.
 ///

@@ -8,7 +8,7 @@ use particle_damper::integrator::{Integrator, VelocityVerlet};
 use particle_damper::mount::{Mount, SingleDof};
 use particle_damper::{
     AllPairs, Bed, Bodies, Body, CellGrid, Contact, ContactForce, ContactLaw, Damper, Detector,
-    HertzTsuji, LinkedCells, Material, Materials, Observer, Pairs, Particle, Skin,
+    ForceLaw, HertzTsuji, LinkedCells, Material, Materials, Observer, Pairs, Particle, Skin,
 };
 
 #[path = "downstream/parts.rs"]

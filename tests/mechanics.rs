@@ -5,8 +5,9 @@ use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::integrator::{Integrator, RungeKutta4, VelocityVerlet};
 use particle_damper::mount::{Motion, Mount, SingleDof};
 use particle_damper::{
-    Bodies, Contact, ContactForce, ContactLaw, Damper, Detector, Filling, HertzMindlin, HertzTsuji,
-    Interaction, LawError, Material, Particle, RestitutionImpulse, StepError,
+    Bodies, Contact, ContactForce, ContactLaw, Damper, Detector, Filling, ForceLaw, Forces,
+    HertzMindlin, HertzTsuji, Interaction, LawError, Material, Particle, RestitutionImpulse,
+    StepError,
 };
 
 fn paper_particle() -> Particle {
@@ -402,12 +403,16 @@ struct Failing {
 }
 
 impl ContactLaw for Failing {
+    type Kind = Forces;
     type Coefficients = ();
-    type Memory = ();
 
     fn coefficients(&self, _bodies: &Bodies) -> Result<(), LawError> {
         Ok(())
     }
+}
+
+impl ForceLaw for Failing {
+    type Memory = ();
 
     fn force(&self, (): &(), contact: &Contact, (): &()) -> ContactForce {
         let mut force = ContactForce::new(1e3 * contact.overlap, DVec3::ZERO);

@@ -14,7 +14,7 @@ use super::chunk::Chunk;
 use super::scene::{Scene, WallLoad};
 use super::vectors::Rows;
 use crate::cavity::Cavity;
-use crate::law::ContactLaw;
+use crate::law::{ContactLaw, Memory};
 
 mod evaluate;
 mod list;
@@ -59,8 +59,6 @@ pub(crate) struct Place {
 /// What candidates are listed from.
 pub(crate) struct Listing<'a, C, L: ContactLaw> {
     pub(crate) scene: &'a Scene<'a, C, L>,
-    /// Gap in m up to which contacts are evaluated.
-    pub(crate) reach: f64,
     /// Starts of the rows of partners, by lower slot, and the end of the last.
     pub(crate) rows: &'a [u32],
     /// Where each particle is in its container's frame.
@@ -68,7 +66,7 @@ pub(crate) struct Listing<'a, C, L: ContactLaw> {
 }
 
 /// What contacts remember: of pairs, and of walls.
-pub(crate) type Memories<L> = [Vec<Remembered<<L as ContactLaw>::Memory>>; 2];
+pub(crate) type Memories<L> = [Vec<Remembered<Memory<L>>>; 2];
 
 /// Room for what contacts of a block remember in a bed of `particles`.
 pub(crate) fn memories<M>(particles: usize) -> [Vec<Remembered<M>>; 2] {
@@ -140,9 +138,10 @@ impl<L: ContactLaw> Block<L> {
                 find_pairs::<C, L, false>(scene, list);
             }
         }
-        self.walls.find(|i, wall| {
+        let reach = scene.reach;
+        self.walls.find(|i, wall, touching| {
             let position = scene.position.get(i);
-            scene.wall_point(wall, position).distance
+            scene.wall_point(wall, position).distance < touching + reach
         });
         trusted
     }
@@ -214,7 +213,11 @@ fn find_pairs<C, L: ContactLaw, const PLANAR: bool>(
     list: &mut Candidates<L>,
 ) {
     let position = scene.position.polar::<PLANAR>(scene.radius.len());
-    list.find(|i, j| position.get(i).distance_squared(position.get(j as usize)));
+    let reach = scene.reach;
+    list.find(|i, j, touching| {
+        let limit = touching + reach;
+        position.get(i).distance_squared(position.get(j as usize)) < limit * limit
+    });
 }
 
 /// Whether all points `now` are nearer to those `then`, seen from `origin`, than the root of `limit`.

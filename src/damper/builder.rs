@@ -11,6 +11,10 @@ mod build;
 /// Overlaps up to this fraction of the smallest radius are taken for contacts of a settled bed.
 const INITIAL_OVERLAP: f64 = 0.05;
 
+/// Overlaps up to this fraction of the smallest radius pass while blows are hard; no bed comes back from
+/// much more.
+const OVERLAP_LIMIT: f64 = 0.5;
+
 /// Puts a [`Damper`](crate::Damper) together.
 #[derive(Debug, Clone)]
 #[must_use]
@@ -44,7 +48,7 @@ impl<C, L> Builder<C, L> {
             wall_material: Materials::FIRST,
             particles: Vec::new(),
             initial_overlap: INITIAL_OVERLAP,
-            overlap_limit: 1.0,
+            overlap_limit: OVERLAP_LIMIT,
             contained: true,
         }
     }
@@ -161,7 +165,8 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
         self
     }
 
-    /// Overlap at which a step reports an error, as a fraction of the smallest radius; 1 unless set.
+    /// Overlap at which a step reports an error, as a fraction of the smallest radius; 0.5 unless set.
+    /// Results are worth little well before: see [`guide::trust`](crate::guide::trust).
     pub const fn overlap_limit(mut self, fraction: f64) -> Self {
         self.overlap_limit = fraction;
         self

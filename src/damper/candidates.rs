@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use super::coefficients::Coefficients;
-use crate::law::{ContactLaw, LawError};
+use crate::law::{ContactLaw, LawError, Memory};
 
 /// Two bodies that might touch.
 #[derive(Debug, Clone, Copy)]
@@ -15,9 +15,8 @@ struct Candidate {
     first: u32,
     /// Slot of the second body, or number of the wall.
     second: u32,
-    /// They are in contact while their measure is below this: of two particles the squared distance
-    /// of the centres, of a particle and a wall the distance.
-    limit: f64,
+    /// Distance at which they touch, m: of two centres, or of a centre and a wall.
+    touching: f64,
 }
 
 /// The memory of a contact, between two lists of candidates.
@@ -58,7 +57,7 @@ pub(crate) struct Candidates<L: ContactLaw> {
     /// Place of the entry of each, or [`NONE`]; empty if contacts remember nothing.
     entry: Vec<u32>,
     /// What those remember that have touched since they were listed, or had before.
-    entries: Vec<Entry<L::Memory>>,
+    entries: Vec<Entry<Memory<L>>>,
     /// One each, if the law has to be asked pair by pair; else empty.
     prepared: Vec<L::Coefficients>,
     pub(crate) contacts: Contacts,
@@ -148,7 +147,7 @@ impl<L: ContactLaw> Default for Candidates<L> {
 
 impl<L: ContactLaw> Candidates<L> {
     /// Whether the law's contacts remember anything; decided when the program is compiled.
-    pub(crate) const REMEMBERS: bool = size_of::<L::Memory>() != 0;
+    pub(crate) const REMEMBERS: bool = size_of::<Memory<L>>() != 0;
 
     /// Empties the list.
     pub(crate) fn clear(&mut self) {
@@ -157,7 +156,7 @@ impl<L: ContactLaw> Candidates<L> {
     }
 
     /// Adds to `remembered` the memories of contacts that touched at the end of step `stamp`.
-    pub(crate) fn remember(&self, stamp: u32, remembered: &mut Vec<Remembered<L::Memory>>) {
+    pub(crate) fn remember(&self, stamp: u32, remembered: &mut Vec<Remembered<Memory<L>>>) {
         if !Self::REMEMBERS {
             return;
         }
@@ -195,11 +194,11 @@ impl<L: ContactLaw> Candidates<L> {
 
     /// Adds a candidate. Pairs come in ascending order of their slots, the lower one first; walls in
     /// ascending order of slot and wall.
-    pub(crate) fn push(&mut self, first: u32, second: u32, limit: f64) {
+    pub(crate) fn push(&mut self, first: u32, second: u32, touching: f64) {
         self.list.push(Candidate {
             first,
             second,
-            limit,
+            touching,
         });
     }
 
@@ -208,7 +207,7 @@ impl<L: ContactLaw> Candidates<L> {
     pub(crate) fn finish(
         &mut self,
         stamp: u32,
-        remembered: &[Remembered<L::Memory>],
+        remembered: &[Remembered<Memory<L>>],
         key: impl Fn(u32, u32) -> (u32, u32),
     ) {
         let count = self.list.len();
@@ -225,7 +224,7 @@ impl<L: ContactLaw> Candidates<L> {
         let mut remembered = remembered.iter().peekable();
         for (entry, candidate) in self.entry.iter_mut().zip(&self.list) {
             let own = key(candidate.first, candidate.second);
-            let of = |contact: &Remembered<L::Memory>| key(contact.first, contact.second);
+            let of = |contact: &Remembered<Memory<L>>| key(contact.first, contact.second);
             while remembered.next_if(|contact| of(contact) < own).is_some() {}
             if let Some(contact) = remembered.next_if(|contact| of(contact) == own) {
                 *entry = self.entries.len() as u32;
@@ -261,9 +260,10 @@ impl<L: ContactLaw> Candidates<L> {
         self.list.len()
     }
 
-    /// Lists the candidates in contact, by their `measure`.
+    /// Lists the candidates that are in contact, as `touches` tells of both and of the distance at which
+    /// they touch (m).
     #[inline(always)]
-    pub(crate) fn find(&mut self, measure: impl Fn(usize, u32) -> f64) {
+    pub(crate) fn find(&mut self, touches: impl Fn(usize, u32, f64) -> bool) {
         let Contacts { bodies, places, .. } = &mut self.contacts;
         let places = &mut places[..bodies.len()];
         let mut count = 0;
@@ -271,12 +271,12 @@ impl<L: ContactLaw> Candidates<L> {
             let Candidate {
                 first,
                 second,
-                limit,
+                touching,
             } = *candidate;
             // Written before it is known whether it counts: no branch to mispredict.
             bodies[count] = [first, second];
             places[count] = place;
-            count += usize::from(measure(first as usize, second) < limit);
+            count += usize::from(touches(first as usize, second, touching));
         }
         self.contacts.count = count;
     }
@@ -289,7 +289,7 @@ impl<L: ContactLaw> Candidates<L> {
 
     /// What a candidate remembers that touched at the end of step `stamp`, if contacts remember anything.
     #[inline(always)]
-    pub(crate) fn touched(&self, place: u32, stamp: u32) -> Option<&L::Memory> {
+    pub(crate) fn touched(&self, place: u32, stamp: u32) -> Option<&Memory<L>> {
         if !Self::REMEMBERS {
             return None;
         }
@@ -300,13 +300,13 @@ impl<L: ContactLaw> Candidates<L> {
 
     /// Copies what the contacts of a run remember from the end of step `stamp`.
     #[inline(always)]
-    pub(crate) fn recall(&self, run: Range<usize>, stamp: u32, memories: &mut [L::Memory]) {
+    pub(crate) fn recall(&self, run: Range<usize>, stamp: u32, memories: &mut [Memory<L>]) {
         if Self::REMEMBERS {
             for (place, memory) in self.contacts.places[run].iter().zip(memories) {
                 // Each straight to its place: through a temporary it would be copied twice.
                 match self.touched(*place, stamp) {
                     Some(remembered) => *memory = *remembered,
-                    None => *memory = L::Memory::default(),
+                    None => *memory = Memory::<L>::default(),
                 }
             }
         }
@@ -314,7 +314,7 @@ impl<L: ContactLaw> Candidates<L> {
 
     /// Keeps what the contacts of a run remember at the end of step `stamp`.
     #[inline(always)]
-    pub(crate) fn keep_run(&mut self, run: Range<usize>, stamp: u32, memories: &[L::Memory]) {
+    pub(crate) fn keep_run(&mut self, run: Range<usize>, stamp: u32, memories: &[Memory<L>]) {
         if Self::REMEMBERS {
             for (place, memory) in self.contacts.places[run].iter().zip(memories) {
                 let entry = &mut self.entry[*place as usize];
@@ -323,28 +323,22 @@ impl<L: ContactLaw> Candidates<L> {
         }
     }
 
-    /// Keeps what the contacts remember at the end of step `stamp`, of which `memories` tells one by
-    /// one; those without any forget.
-    pub(crate) fn keep_all<'m>(
-        &mut self,
-        stamp: u32,
-        memories: impl Iterator<Item = Option<&'m L::Memory>>,
-    ) where
-        L::Memory: 'm,
-    {
-        for (place, memory) in self.contacts.places().iter().zip(memories) {
-            if let Some(memory) = memory {
-                let entry = &mut self.entry[*place as usize];
-                keep(&mut self.entries, entry, stamp, memory);
-            }
-        }
+    /// Keeps what a candidate remembers at the end of step `stamp`.
+    #[inline(always)]
+    pub(crate) fn keep(&mut self, place: u32, stamp: u32, memory: &Memory<L>) {
+        keep(
+            &mut self.entries,
+            &mut self.entry[place as usize],
+            stamp,
+            memory,
+        );
     }
 
     /// Memory in bytes that the list has reserved.
     pub(crate) fn reserved_bytes(&self) -> usize {
         let contacts = &self.contacts;
         size_of::<Candidate>() * self.list.capacity()
-            + size_of::<Entry<L::Memory>>() * self.entries.capacity()
+            + size_of::<Entry<Memory<L>>>() * self.entries.capacity()
             + size_of::<L::Coefficients>() * self.prepared.capacity()
             + size_of::<[u32; 2]>() * contacts.bodies.capacity()
             + size_of::<u32>() * (self.entry.capacity() + contacts.places.capacity())

@@ -6,7 +6,7 @@ use super::candidates::{Remembered, make_room};
 use super::engine::Engine;
 use super::error::StepError;
 use crate::cavity::Cavity;
-use crate::detector::{Bed, Detector};
+use crate::detector::{Bed, Detector, DetectorError};
 use crate::law::ContactLaw;
 use crate::mount::Mount;
 use crate::parallel::for_each;
@@ -23,6 +23,37 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         if skinless || !self.scratch.listed || !self.narrow() {
             self.list(None)?;
             self.narrow();
+        }
+        Ok(())
+    }
+
+    /// Has bodies with a gap below `reach` (m) count as in contact. Candidates are listed up to more, so
+    /// that they need not be listed anew for every new speed of the bed.
+    pub(crate) fn reach_out(&mut self, reach: f64) -> Result<(), StepError> {
+        self.world.reach = reach;
+        if reach <= self.world.listed {
+            return Ok(());
+        }
+        self.world.listed = 2.0 * reach;
+        self.scratch.listed = false;
+        Ok(self.prepare_detectors()?)
+    }
+
+    /// Makes the detectors ready for the bed as it stands.
+    pub(crate) fn prepare_detectors(&mut self) -> Result<(), DetectorError> {
+        let local = &mut self.scratch.local;
+        for (room, detector) in self.world.rooms.iter().zip(&mut self.detectors) {
+            let slots = room.slots.clone();
+            let origin = room.motion.position;
+            let positions = slots
+                .clone()
+                .map(|slot| self.particles.position.get(slot) - origin);
+            local.clear();
+            local.extend(positions);
+            let bed = Bed::new(local, &self.particles.radius[slots], room.cavity.bounds())
+                .in_plane(room.cavity.is_planar())
+                .with_margin(room.margin + self.world.listed);
+            detector.prepare(&bed)?;
         }
         Ok(())
     }
@@ -71,7 +102,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 room.cavity.bounds(),
             )
             .in_plane(room.cavity.is_planar())
-            .with_margin(room.margin + self.world.reach);
+            .with_margin(room.margin + self.world.listed);
             scratch.proposals.clear();
             detector.detect(&bed, &mut scratch.proposals);
             let proposals = scratch.proposals.as_slice();
@@ -111,7 +142,6 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     fn list_candidates(&mut self, saved: Option<&Memories<L>>) {
         let listing = Listing {
             scene: &self.world.scene(&self.particles, 0.0),
-            reach: self.world.reach,
             rows: &self.scratch.rows,
             local: &self.scratch.local,
         };

@@ -4,15 +4,15 @@
 use glam::DVec3;
 
 use super::block::{Block, Memories, Place, block_size, room_for};
+use super::contact_dynamics::ContactSolver;
 use super::error::StepError;
-use super::impulse::Joints;
 use super::particles::Particles;
 use super::scene::{Room, WallLoad, World};
 use super::vectors::Vectors;
 use crate::cavity::Cavity;
 use crate::detector::{Detector, Pairs};
 use crate::integrator::Stage;
-use crate::law::{ContactLaw, Evaluation};
+use crate::law::{ContactLaw, ForceLaw, ImpulseLaw, LawKind, LawVisitor};
 use crate::mount::{Motion, Mount};
 use crate::observer::Observer;
 use crate::parallel::{Pool, for_each};
@@ -110,8 +110,8 @@ pub(crate) struct Engine<C, L: ContactLaw, M, D> {
     pub(crate) scratch: Scratch,
     /// What contacts of a block remember while they are listed anew.
     pub(crate) memories: Pool<Memories<L>>,
-    /// What the impulses of a step are worked out with; empty under a stiff law.
-    pub(crate) joints: Joints<L>,
+    /// What impulses are worked out with; none under a force law.
+    pub(crate) solver: Option<ContactSolver>,
     /// Loads of the particles on each wall, all cavities in turn.
     pub(crate) wall_loads: Vec<WallLoad>,
     /// Forces of the particles on each container.
@@ -189,7 +189,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         &mut self,
         elapsed: f64,
         observer: &mut O,
-    ) -> Result<(), StepError> {
+    ) -> Result<(), StepError>
+    where
+        L: ForceLaw,
+    {
         let [mut force, mut torque] = std::mem::take(&mut self.scratch.previous);
         let scene = self.world.scene(&self.particles, elapsed);
         let widths = (force.width(), torque.width());
@@ -319,16 +322,111 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         observer: &mut O,
     ) -> Result<(), StepError> {
         self.place_containers(time)?;
-        if self.world.law.evaluation() == Evaluation::EveryStage {
-            self.find_contacts(afresh)?;
-            match stage {
-                Stage::Trial => self.evaluate_contacts::<(), false>(elapsed, &mut ())?,
-                Stage::End => self.evaluate_contacts::<O, true>(elapsed, observer)?,
-            }
-        }
+        L::Kind::accept(EvaluateForces {
+            engine: self,
+            elapsed,
+            stage,
+            afresh,
+            observer,
+        })?;
         let previous = &mut self.scratch.previous_of_mount;
         previous.copy_from_slice(&self.mount_state.acceleration);
         self.accelerate_mount(time);
         Ok(())
+    }
+
+    /// Begins a step of `time_step` (s).
+    pub(crate) fn begin<O: Observer>(
+        &mut self,
+        time_step: f64,
+        observer: &mut O,
+    ) -> Result<(), StepError> {
+        L::Kind::accept(BeginStep {
+            engine: self,
+            time_step,
+            observer,
+        })
+    }
+
+    /// Ends a step.
+    pub(crate) fn end(&mut self) -> Result<(), StepError> {
+        self.check_left_behind()?;
+        self.world.stamp = self.world.stamp.wrapping_add(1);
+        Ok(())
+    }
+}
+
+/// Forces of the current state: worked out anew under a force law, held under an impulse law.
+struct EvaluateForces<'a, E, O> {
+    engine: &'a mut E,
+    elapsed: f64,
+    stage: Stage,
+    afresh: bool,
+    observer: &'a mut O,
+}
+
+impl<C, L, M, D, O> LawVisitor<L> for EvaluateForces<'_, Engine<C, L, M, D>, O>
+where
+    C: Cavity,
+    L: ContactLaw,
+    M: Mount,
+    D: Detector,
+    O: Observer,
+{
+    type Output = Result<(), StepError>;
+
+    fn forces(self) -> Self::Output
+    where
+        L: ForceLaw,
+    {
+        self.engine.find_contacts(self.afresh)?;
+        match self.stage {
+            Stage::Trial => self
+                .engine
+                .evaluate_contacts::<(), false>(self.elapsed, &mut ()),
+            Stage::End => self
+                .engine
+                .evaluate_contacts::<O, true>(self.elapsed, self.observer),
+        }
+    }
+
+    fn impulses(self) -> Self::Output
+    where
+        L: ImpulseLaw,
+    {
+        Ok(())
+    }
+}
+
+/// The beginning of a step: where an impulse law works out what holds over it.
+struct BeginStep<'a, E, O> {
+    engine: &'a mut E,
+    time_step: f64,
+    observer: &'a mut O,
+}
+
+impl<C, L, M, D, O> LawVisitor<L> for BeginStep<'_, Engine<C, L, M, D>, O>
+where
+    C: Cavity,
+    L: ContactLaw,
+    M: Mount,
+    D: Detector,
+    O: Observer,
+{
+    type Output = Result<(), StepError>;
+
+    fn forces(self) -> Self::Output
+    where
+        L: ForceLaw,
+    {
+        self.engine.world.time_step = self.time_step;
+        Ok(())
+    }
+
+    fn impulses(self) -> Self::Output
+    where
+        L: ImpulseLaw,
+    {
+        self.engine.solve_contacts(self.time_step, self.observer)
     }
 }

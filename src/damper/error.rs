@@ -91,6 +91,16 @@ pub enum BuildError {
         /// The longest step in s.
         limit: f64,
     },
+    /// A mount whose coordinates no load on a container moves: it lacks
+    /// [`Mount::accelerate`](crate::Mount::accelerate), or its containers do not follow its coordinates.
+    #[error(
+        "the mount has {degrees} coordinates, and no load on a container moves any: its accelerations \
+         must depend on the loads"
+    )]
+    ImmovableMount {
+        /// How many coordinates the mount has.
+        degrees: usize,
+    },
     /// Neither one detector for each cavity, nor one that can be copied.
     #[error("there are {cavities} cavities and {detectors} detectors; each cavity needs its own")]
     DetectorCount {
@@ -148,7 +158,11 @@ pub enum StepError {
         position: DVec3,
     },
     /// Two bodies overlap by more than the stated bound.
-    #[error("particle {particle} overlaps {other} by {overlap} m; the limit is {limit} m")]
+    #[error(
+        "particle {particle} overlaps {other} by {overlap} m; the limit is {limit} m. A shorter time step \
+         helps; under an impulse law more sweeps, where heavy bodies press on light ones; under a force \
+         law a stiffer material"
+    )]
     Overlap {
         /// Number of the particle.
         particle: usize,
@@ -157,6 +171,22 @@ pub enum StepError {
         /// Overlap in m.
         overlap: f64,
         /// The bound in m.
+        limit: f64,
+    },
+    /// A particle moves by more than its radius relative to its container in a step: it could pass others,
+    /// or a wall, unseen. A shorter step follows it.
+    #[error(
+        "particle {particle} moves at {speed} m/s relative to its container, by more than its radius in a \
+         step of {time_step} s; at most {limit} m/s can be followed, or a shorter step"
+    )]
+    TooFast {
+        /// Number of the particle.
+        particle: usize,
+        /// Its speed relative to the container in m/s.
+        speed: f64,
+        /// The step in s.
+        time_step: f64,
+        /// The greatest speed in m/s that the step follows.
         limit: f64,
     },
     /// The container's motion is no longer finite.
@@ -191,6 +221,9 @@ pub enum StepError {
         /// How many particles there are.
         particles: usize,
     },
+    /// The detector cannot serve the bed at the speeds that it has.
+    #[error(transparent)]
+    Detector(#[from] DetectorError),
     /// The law refused two bodies that met for the first time.
     #[error(transparent)]
     Law(#[from] LawError),

@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
+use super::candidates::Candidates;
 use super::chunk::Moment;
 use super::coefficients::Coefficients;
 use super::particles::Particles;
@@ -39,8 +40,10 @@ pub(crate) struct World<C, L: ContactLaw> {
     pub(crate) rooms: Vec<Room<C>>,
     /// Number of the room of each wall.
     pub(crate) room_of_wall: Vec<u32>,
-    /// Gap in m up to which contacts are evaluated.
+    /// Gap in m up to which bodies count as in contact: zero under a force law.
     pub(crate) reach: f64,
+    /// Gap in m up to which candidates are listed, besides the margin.
+    pub(crate) listed: f64,
     /// Number of the last accepted step; it wraps.
     pub(crate) stamp: u32,
     /// Length of the step, s.
@@ -68,6 +71,8 @@ impl<C: Cavity, L: ContactLaw> World<C, L> {
             time_step: self.time_step,
             stamp: self.stamp,
             planar: self.planar(),
+            reach: self.reach,
+            listed: self.listed,
         }
     }
 }
@@ -111,6 +116,9 @@ pub(crate) struct Scene<'a, C, L: ContactLaw> {
     pub(crate) stamp: u32,
     /// Whether everything moves in the plane z = 0.
     pub(crate) planar: bool,
+    /// As in [`World`].
+    pub(crate) reach: f64,
+    pub(crate) listed: f64,
 }
 
 /// What a contact needs to know of a particle.
@@ -189,6 +197,25 @@ impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
             spin: self.spin.get(slot),
             radius: self.radius[slot],
         }
+    }
+
+    /// The coefficients of two particles that stand at a place of a list.
+    #[inline(always)]
+    pub(crate) fn pair(
+        &self,
+        list: &Candidates<L>,
+        bodies: [u32; 2],
+        place: u32,
+    ) -> L::Coefficients {
+        let [first, second] = bodies.map(|slot| self.species[slot as usize]);
+        self.coefficients.pair(first, second, list.prepared(place))
+    }
+
+    /// Number of the room that a particle is in.
+    #[inline(always)]
+    pub(crate) fn room_of(&self, slot: u32) -> usize {
+        self.rooms
+            .partition_point(|room| room.slots.end <= slot as usize)
     }
 
     /// When in the step this is.

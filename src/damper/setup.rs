@@ -8,6 +8,7 @@ use super::coefficients::Coefficients;
 use super::engine::Engine;
 use crate::cavity::Cavity;
 use crate::contact::Body;
+use crate::detector::Detector;
 use crate::law::ContactLaw;
 use crate::mount::Mount;
 
@@ -30,15 +31,16 @@ impl Setup {
         C: Cavity,
         L: ContactLaw,
         M: Mount,
+        D: Detector,
     {
         let world = &engine.world;
         let mut cavities = Fingerprint::default();
         let mut mount = Fingerprint::default();
         cavities.add(&world.rooms.len());
         mount.add(&engine.mount.degrees());
-        for (number, room) in world.rooms.iter().enumerate() {
+        mount.add(&engine.container_responses());
+        for room in &world.rooms {
             cavities.add_cavity(&room.cavity);
-            mount.add(&engine.mount.mobility(number));
         }
         if world.rooms.len() > 1 {
             cavities.add(&engine.particles.number);
@@ -48,7 +50,7 @@ impl Setup {
             gravity: engine.gravity,
             kinds: Fingerprint::of(&engine.particles.kinds),
             cavities,
-            law: Fingerprint::of_law(&world.coefficients, &engine.particles.kinds, world.reach),
+            law: Fingerprint::of_law(&world.coefficients, &engine.particles.kinds),
             mount,
         }
     }
@@ -105,8 +107,8 @@ impl Fingerprint {
     }
 
     /// A law by what it prepares for each kind at a wall and against itself and its neighbour.
-    fn of_law<K: Copy + fmt::Debug>(table: &Coefficients<K>, kinds: &[Body], reach: f64) -> Self {
-        let mut own = Self::of(&reach);
+    fn of_law<K: Copy + fmt::Debug>(table: &Coefficients<K>, kinds: &[Body]) -> Self {
+        let mut own = Self::default();
         let count = kinds.len() as u32;
         for kind in 0..count {
             own.add(table.wall(kind));

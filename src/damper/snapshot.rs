@@ -12,7 +12,7 @@ use super::setup::Setup;
 use crate::cavity::Cavity;
 use crate::detector::Detector;
 use crate::integrator::Integrator;
-use crate::law::ContactLaw;
+use crate::law::{ContactLaw, Memory as MemoryOf};
 use crate::mount::{Motion, Mount};
 
 /// Number of the layout of [`Snapshot`], which changes with it.
@@ -139,7 +139,7 @@ impl<Memory> Snapshot<Memory> {
     ) -> Result<(), RestoreError>
     where
         C: Cavity,
-        L: ContactLaw<Memory = Memory>,
+        L: ContactLaw,
         M: Mount,
         D: Detector,
     {
@@ -187,7 +187,7 @@ impl<Memory> Snapshot<Memory> {
     /// Refuses numbers that are not each particle's once, in a slot of its own cavity.
     fn check_numbers<C, L, M, D>(&self, engine: &Engine<C, L, M, D>) -> Result<(), RestoreError>
     where
-        L: ContactLaw<Memory = Memory>,
+        L: ContactLaw,
     {
         let particles = &engine.particles;
         let mut seen = vec![false; particles.len()];
@@ -233,7 +233,7 @@ where
 {
     /// The state of the damper.
     #[must_use]
-    pub fn snapshot(&self) -> Snapshot<L::Memory> {
+    pub fn snapshot(&self) -> Snapshot<MemoryOf<L>> {
         let engine = &self.engine;
         let particles = &engine.particles;
         Snapshot {
@@ -260,7 +260,7 @@ where
     ///
     /// # Errors
     /// If the snapshot is of another version or setup, or is damaged; the damper is then as before.
-    pub fn restore(&mut self, snapshot: &Snapshot<L::Memory>) -> Result<(), RestoreError> {
+    pub fn restore(&mut self, snapshot: &Snapshot<MemoryOf<L>>) -> Result<(), RestoreError> {
         if snapshot.version != VERSION {
             return Err(RestoreError::Version {
                 expected: VERSION,

@@ -5,7 +5,7 @@ use super::error::StepError;
 use crate::cavity::Cavity;
 use crate::detector::Detector;
 use crate::integrator::{Columns, Motions, Stage, System};
-use crate::law::{ContactLaw, Evaluation};
+use crate::law::{ContactLaw, LawKind};
 use crate::mount::Mount;
 use crate::observer::Observer;
 
@@ -30,10 +30,10 @@ where
         let particles = &mut self.engine.particles;
         let mount = &mut self.engine.mount_state;
         let scratch = &self.engine.scratch;
-        let [previous, turning] = match self.engine.world.law.evaluation() {
-            Evaluation::EveryStage => scratch.previous.each_ref(),
-            // Impulses hold over the step.
-            _ => [&particles.acceleration, &particles.angular_acceleration],
+        let [previous, turning] = if L::Kind::HELD {
+            [&particles.acceleration, &particles.angular_acceleration]
+        } else {
+            scratch.previous.each_ref()
         };
         Motions {
             translation: Columns {

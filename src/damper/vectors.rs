@@ -107,11 +107,6 @@ impl Vectors {
         self.assign(moved);
     }
 
-    /// Whether all numbers are finite.
-    pub(crate) fn is_finite(&self) -> bool {
-        all_finite(&self.values)
-    }
-
     /// Memory in bytes that the column has reserved.
     pub(crate) fn reserved_bytes(&self) -> usize {
         size_of::<f64>() * self.values.capacity()
@@ -170,6 +165,11 @@ impl<'a> Rows<'a> {
     /// How many there are.
     pub(crate) const fn len(&self) -> usize {
         self.values.len() / self.axes.width()
+    }
+
+    /// The numbers one after the other.
+    pub(crate) const fn flat(&self) -> &'a [f64] {
+        self.values
     }
 
     /// Those of some slots.
@@ -278,9 +278,9 @@ mod tests {
                 column.iter().collect::<Vec<_>>(),
                 [DVec3::ZERO, kept, DVec3::ZERO]
             );
-            assert!(column.is_finite());
+            assert!(all_finite(&column.values));
             column.set(2, DVec3::NAN);
-            assert!(!column.is_finite());
+            assert!(!all_finite(&column.values));
         }
     }
 }

@@ -6,7 +6,7 @@ use super::engine::Engine;
 use super::scene::WallLoad;
 use crate::cavity::Cavity;
 use crate::detector::Detector;
-use crate::law::{ContactLaw, Evaluation};
+use crate::law::{ContactLaw, LawKind};
 use crate::mount::{Motion, Mount, MountEnergy};
 use crate::observer::View;
 use crate::particle::Particle;
@@ -71,7 +71,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> View for Engine<C, L, M, D
     }
 
     fn holds_forces(&self) -> bool {
-        self.world.law.evaluation() != Evaluation::EveryStage
+        L::Kind::HELD
     }
 
     fn contacts(&self) -> usize {

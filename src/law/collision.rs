@@ -2,14 +2,14 @@
 
 use glam::{DVec3, dvec3};
 
-use super::ContactLaw;
+use super::ForceLaw;
 use crate::contact::{Bodies, Body, Contact, ContactForce, Edge};
 use crate::damper::StepError;
 use crate::damper::vectors::{Axes, Vectors};
 use crate::integrator::{Columns, Integrator, Motions, Stage, System};
 use crate::material::{Interaction, Material, Materials};
 
-pub(super) struct Collision<'l, L: ContactLaw> {
+pub(super) struct Collision<'l, L: ForceLaw> {
     law: &'l L,
     bodies: Bodies,
     coefficients: L::Coefficients,
@@ -43,7 +43,7 @@ pub(super) fn acrylic(restitution: f64, friction: f64) -> Material {
 }
 
 /// Impacts at 1 m/s from 0 to 89 degrees with spin of either sign, at a wall and of a pair.
-pub(super) fn oblique<L: ContactLaw>(law: &L) -> impl Iterator<Item = Collision<'_, L>> {
+pub(super) fn oblique<L: ForceLaw>(law: &L) -> impl Iterator<Item = Collision<'_, L>> {
     let angles = (0..90).step_by(5).chain([89]).map(f64::from);
     angles.flat_map(move |degrees| {
         let (sine, cosine) = degrees.to_radians().sin_cos();
@@ -56,7 +56,7 @@ pub(super) fn oblique<L: ContactLaw>(law: &L) -> impl Iterator<Item = Collision<
     })
 }
 
-impl<'l, L: ContactLaw> Collision<'l, L> {
+impl<'l, L: ForceLaw> Collision<'l, L> {
     /// The first body comes down on the second with `velocity` (m/s) and `spin` (rad/s); they just
     /// touch.
     pub(super) fn new(law: &'l L, bodies: Bodies, velocity: DVec3, spin: DVec3) -> Self {
@@ -159,7 +159,7 @@ fn both(column: &Vectors) -> [DVec3; 2] {
     [0, 1].map(|n| column.iter().nth(n).unwrap_or_default())
 }
 
-impl<L: ContactLaw> System for Collision<'_, L> {
+impl<L: ForceLaw> System for Collision<'_, L> {
     fn motions(&mut self) -> Motions<'_> {
         Motions {
             translation: Columns {

@@ -2,7 +2,7 @@ use glam::DVec3;
 
 use super::friction::{PART_PER_STEP, Rolling, SLIP_MOBILITY, share};
 use super::normal::{Normal, NormalCoefficients, NormalForce, strict_law};
-use super::{ContactLaw, LawError, at_least, at_most};
+use super::{ContactLaw, ForceLaw, Forces, LawError, at_least, at_most};
 use crate::contact::{Bodies, Contact, ContactForce, Edge, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::Materials;
@@ -130,8 +130,8 @@ impl HertzMindlin {
 strict_law!(HertzMindlin);
 
 impl ContactLaw for HertzMindlin {
+    type Kind = Forces;
     type Coefficients = Coefficients;
-    type Memory = TangentialSpring;
 
     fn coefficients(&self, bodies: &Bodies) -> Result<Coefficients, LawError> {
         let [first, second] = self.normal.materials(bodies)?;
@@ -151,6 +151,14 @@ impl ContactLaw for HertzMindlin {
             longest: longest.min(GREATEST_TURN / frequency),
         })
     }
+
+    fn time_step_limit(&self, coefficients: &Coefficients) -> f64 {
+        coefficients.longest
+    }
+}
+
+impl ForceLaw for HertzMindlin {
+    type Memory = TangentialSpring;
 
     #[inline(always)]
     fn force(
@@ -231,10 +239,6 @@ impl ContactLaw for HertzMindlin {
             0.0
         };
         NormalForce::stored(&coefficients.normal, contact, stretched)
-    }
-
-    fn time_step_limit(&self, coefficients: &Coefficients) -> f64 {
-        coefficients.longest
     }
 }
 

@@ -1,6 +1,6 @@
 use super::friction::{Friction, Grip};
 use super::normal::{NormalCoefficients, NormalForce, strict_law};
-use super::{ContactLaw, LawError, at_least};
+use super::{ContactLaw, ForceLaw, Forces, LawError, at_least};
 use crate::contact::{Bodies, Contact, ContactForce, Edge, Stored};
 use crate::material::Materials;
 
@@ -102,8 +102,8 @@ impl HertzTsuji {
 strict_law!(HertzTsuji);
 
 impl ContactLaw for HertzTsuji {
+    type Kind = Forces;
     type Coefficients = Coefficients;
-    type Memory = ();
 
     fn coefficients(&self, bodies: &Bodies) -> Result<Coefficients, LawError> {
         let (normal, longest) = self.normal.coefficients(bodies, 0.0)?;
@@ -114,6 +114,14 @@ impl ContactLaw for HertzTsuji {
             longest,
         })
     }
+
+    fn time_step_limit(&self, coefficients: &Coefficients) -> f64 {
+        coefficients.longest
+    }
+}
+
+impl ForceLaw for HertzTsuji {
+    type Memory = ();
 
     #[inline(always)]
     fn force(&self, coefficients: &Coefficients, contact: &Contact, (): &()) -> ContactForce {
@@ -144,10 +152,6 @@ impl ContactLaw for HertzTsuji {
 
     fn stored(&self, coefficients: &Coefficients, contact: &Contact, (): &()) -> Stored {
         NormalForce::stored(&coefficients.normal, contact, 0.0)
-    }
-
-    fn time_step_limit(&self, coefficients: &Coefficients) -> f64 {
-        coefficients.longest
     }
 }
 

@@ -1,4 +1,4 @@
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::{Motion, Mount, MountEnergy};
 use crate::error::{Bound, ValueError};
@@ -143,11 +143,6 @@ impl<E: Excitation> Mount for SingleDof<E> {
         a[0] = (driving + particles - spring) / self.mass;
     }
 
-    #[inline]
-    fn strike(&self, _cavity: usize, impulse: DVec3, v: &mut [f64]) {
-        v[0] += impulse.dot(self.axis) / self.mass;
-    }
-
     fn energy(&self, time: f64, x: &[f64], v: &[f64]) -> MountEnergy {
         let driving = self.excitation.force(time, self.damping, self.stiffness);
         MountEnergy::new(
@@ -155,10 +150,5 @@ impl<E: Excitation> Mount for SingleDof<E> {
             0.5 * self.stiffness * x[0] * x[0],
         )
         .with_powers(driving * v[0], self.damping * v[0] * v[0])
-    }
-
-    fn mobility(&self, _cavity: usize) -> DMat3 {
-        let [x, y, z] = self.axis.to_array();
-        DMat3::from_cols(self.axis * x, self.axis * y, self.axis * z) * (1.0 / self.mass)
     }
 }

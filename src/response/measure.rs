@@ -67,7 +67,7 @@ impl<L, C, D, I> ResponseCurve<L, C, D, I> {
 
 impl<L, C, D, I> ResponseCurve<L, C, D, I>
 where
-    L: ContactLaw,
+    L: ContactLaw + Clone,
     C: Cavity + Clone,
     D: Detector + Clone,
     I: Integrator + Clone,
@@ -131,9 +131,9 @@ where
         &self,
         point: Point,
         time_step: f64,
-    ) -> Result<Damper<C, &L, SingleDof<Harmonic>, D, I>, ResponseError> {
+    ) -> Result<Damper<C, L, SingleDof<Harmonic>, D, I>, ResponseError> {
         let force = Harmonic::new(self.force, point.frequency)?;
-        let damper = Damper::builder(self.cavity.clone(), &self.law)
+        let damper = Damper::builder(self.cavity.clone(), self.law.clone())
             .mount(self.oscillator.excited_by(force))
             .detector(self.detector.clone())
             .integrator(self.integrator.clone())

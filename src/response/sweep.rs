@@ -75,7 +75,7 @@ impl Point {
 
 impl<L, C, D, I> ResponseCurve<L, C, D, I>
 where
-    L: ContactLaw + Sync,
+    L: ContactLaw + Clone,
     C: Cavity + Clone + Sync,
     D: Detector + Clone + Sync,
     I: Integrator + Clone + Sync,

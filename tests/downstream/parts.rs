@@ -3,12 +3,12 @@
 use std::f64::consts::PI;
 
 use particle_damper::cavity::{Cavity, WallPoint};
-use particle_damper::glam::{DMat3, DVec3, dvec3};
+use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::integrator::{Columns, Integrator, Stage, System};
 use particle_damper::mount::{Motion, Mount};
 use particle_damper::{
-    Bed, Bodies, Contact, ContactEvent, ContactForce, ContactLaw, Detector, LawError, Observer,
-    Pairs, Partner, StepError,
+    Bed, Bodies, Contact, ContactEvent, ContactForce, ContactLaw, Detector, ForceLaw, Forces,
+    LawError, Observer, Pairs, Partner, StepError,
 };
 
 /// Sorts the lower ends along x, and sweeps.
@@ -46,20 +46,24 @@ pub(crate) struct SpringDashpot {
 }
 
 impl ContactLaw for SpringDashpot {
+    type Kind = Forces;
     type Coefficients = f64;
-    type Memory = ();
 
     fn coefficients(&self, bodies: &Bodies) -> Result<f64, LawError> {
         Ok(PI * (bodies.effective_mass() / self.stiffness).sqrt() / 5.0)
     }
 
+    fn time_step_limit(&self, longest: &f64) -> f64 {
+        *longest
+    }
+}
+
+impl ForceLaw for SpringDashpot {
+    type Memory = ();
+
     fn force(&self, _: &f64, contact: &Contact, (): &()) -> ContactForce {
         let normal = self.stiffness * contact.overlap + self.damping * contact.approach_speed();
         ContactForce::new(normal.max(0.0), DVec3::ZERO)
-    }
-
-    fn time_step_limit(&self, longest: &f64) -> f64 {
-        *longest
     }
 }
 
@@ -81,12 +85,20 @@ impl CundallStrack {
 }
 
 impl ContactLaw for CundallStrack {
+    type Kind = Forces;
     type Coefficients = f64;
-    type Memory = DVec3;
 
     fn coefficients(&self, bodies: &Bodies) -> Result<f64, LawError> {
         self.normal.coefficients(bodies)
     }
+
+    fn time_step_limit(&self, longest: &f64) -> f64 {
+        *longest
+    }
+}
+
+impl ForceLaw for CundallStrack {
+    type Memory = DVec3;
 
     fn force(&self, own: &f64, contact: &Contact, memory: &DVec3) -> ContactForce {
         let normal = self.normal.force(own, contact, &()).normal;
@@ -95,10 +107,6 @@ impl ContactLaw for CundallStrack {
 
     fn advance(&self, _: &f64, contact: &Contact, memory: &DVec3) -> DVec3 {
         self.stretch(contact, *memory)
-    }
-
-    fn time_step_limit(&self, longest: &f64) -> f64 {
-        *longest
     }
 }
 
@@ -163,14 +171,6 @@ impl Mount for TwoMasses {
         let spring = self.stiffness[1] * (x[1] - x[0]);
         a[0] = (loads[0].x + spring - self.stiffness[0] * x[0]) / self.masses[0];
         a[1] = (loads[1].x - spring) / self.masses[1];
-    }
-
-    fn strike(&self, cavity: usize, impulse: DVec3, v: &mut [f64]) {
-        v[cavity] += impulse.x / self.masses[cavity];
-    }
-
-    fn mobility(&self, cavity: usize) -> DMat3 {
-        DMat3::from_diagonal(DVec3::X / self.masses[cavity])
     }
 }
 

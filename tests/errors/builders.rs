@@ -4,8 +4,8 @@ use particle_damper::cavity::{Cavity, Slot, WallPoint};
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::mount::{Motion, Prescribed, SingleDof};
 use particle_damper::{
-    AllPairs, Bodies, BuildError, Contact, ContactForce, ContactLaw, Damper, Detector, LawError,
-    Material, MaterialId, Particle, RestitutionImpulse, StepError,
+    AllPairs, Bodies, BuildError, Contact, ContactForce, ContactLaw, Damper, Detector, ForceLaw,
+    Forces, LawError, Material, MaterialId, Particle, RestitutionImpulse, StepError,
 };
 
 use super::table::{INF, NAN, Table, law, particle};
@@ -15,12 +15,16 @@ use super::table::{INF, NAN, Table, law, particle};
 struct Soft;
 
 impl ContactLaw for Soft {
+    type Kind = Forces;
     type Coefficients = ();
-    type Memory = ();
 
     fn coefficients(&self, _: &Bodies) -> Result<(), LawError> {
         Ok(())
     }
+}
+
+impl ForceLaw for Soft {
+    type Memory = ();
 
     fn force(&self, (): &(), _: &Contact, (): &()) -> ContactForce {
         ContactForce::default()

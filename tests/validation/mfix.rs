@@ -3,8 +3,9 @@
 
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::{
-    Bodies, Contact, ContactForce, ContactLaw, Cuboid, Damper, HertzMindlin, HertzTsuji,
-    Integrator, LawError, Particle, RestitutionImpulse, RungeKutta4, Slot, VelocityVerlet,
+    Bodies, Contact, ContactForce, ContactLaw, Cuboid, Damper, ForceLaw, Forces, HertzMindlin,
+    HertzTsuji, Integrator, LawError, Particle, RestitutionImpulse, RungeKutta4, Slot,
+    VelocityVerlet,
 };
 
 use super::Form;
@@ -41,8 +42,8 @@ pub(crate) struct Prepared {
 }
 
 impl ContactLaw for SpringDashpot {
+    type Kind = Forces;
     type Coefficients = Prepared;
-    type Memory = ();
 
     fn coefficients(&self, bodies: &Bodies) -> Result<Prepared, LawError> {
         let m = bodies.effective_mass();
@@ -52,13 +53,17 @@ impl ContactLaw for SpringDashpot {
         })
     }
 
+    fn time_step_limit(&self, own: &Prepared) -> f64 {
+        own.longest
+    }
+}
+
+impl ForceLaw for SpringDashpot {
+    type Memory = ();
+
     fn force(&self, own: &Prepared, contact: &Contact, (): &()) -> ContactForce {
         let force = self.stiffness * contact.overlap + own.damping * contact.approach_speed();
         ContactForce::new(force, DVec3::ZERO)
-    }
-
-    fn time_step_limit(&self, own: &Prepared) -> f64 {
-        own.longest
     }
 }
 

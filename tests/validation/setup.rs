@@ -2,8 +2,8 @@
 
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::{
-    AllPairs, ContactEvent, ContactLaw, Cuboid, Damper, Evaluation, HertzTsuji, Integrator,
-    Interaction, Material, MaterialId, Materials, Observer, Particle, RungeKutta4,
+    AllPairs, ContactEvent, ContactLaw, Cuboid, Damper, HertzTsuji, Integrator, Interaction,
+    LawKind, Material, MaterialId, Materials, Observer, Particle, RungeKutta4,
 };
 
 use super::case::{Case, Tolerance};
@@ -109,7 +109,7 @@ pub(crate) fn collide<L: ContactLaw, I: Integrator>(
         [first, second] => first.radius + second.radius - first.position.distance(second.position),
         _ => now[0].radius - now[0].position.y,
     };
-    let impulsive = damper.law().evaluation() != Evaluation::EveryStage;
+    let impulsive = <L::Kind as LawKind<L>>::HELD;
     let mut watch = Watch::default();
     let (mut begin, mut end) = (0.0, 0.0);
     let mut now: Vec<Particle> = damper.particles().collect();

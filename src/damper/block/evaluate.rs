@@ -15,10 +15,10 @@ use crate::damper::candidates::Candidates;
 use crate::damper::chunk::{CHUNK, Chunk};
 use crate::damper::scene::{Scene, WallLoad};
 use crate::damper::vectors::scale;
-use crate::law::ContactLaw;
+use crate::law::{ContactLaw, ForceLaw};
 use crate::observer::Observer;
 
-impl<L: ContactLaw> Block<L> {
+impl<L: ForceLaw> Block<L> {
     /// Evaluates all contacts of the block, and turns forces and torques on its own slots, for which
     /// there is room in `sums`, into accelerations; parcels of other blocks are not among them. Returns
     /// whether all are finite. With `END`, contacts advance their memory to step `scene.stamp + 1`.
@@ -192,7 +192,7 @@ fn runs(contacts: usize) -> impl Iterator<Item = Range<usize>> {
 
 /// Has the law answer a run of touching pairs.
 #[inline(always)]
-fn answer_pairs<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
+fn answer_pairs<C: Cavity, L: ForceLaw, const END: bool, const PLANAR: bool>(
     scene: &Scene<'_, C, L>,
     list: &mut Candidates<L>,
     chunk: &mut Chunk<L>,
@@ -221,7 +221,7 @@ fn answer_pairs<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
 
 /// Has the law answer a run of touching walls.
 #[inline(always)]
-fn answer_walls<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
+fn answer_walls<C: Cavity, L: ForceLaw, const END: bool, const PLANAR: bool>(
     scene: &Scene<'_, C, L>,
     list: &mut Candidates<L>,
     chunk: &mut Chunk<L>,

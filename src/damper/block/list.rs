@@ -4,7 +4,7 @@ use super::{Block, Listing, Memories};
 use crate::cavity::Cavity;
 use crate::damper::candidates::{Remembered, make_room, pair};
 use crate::damper::scene::Scene;
-use crate::law::{ContactLaw, LawError};
+use crate::law::{ContactLaw, LawError, Memory};
 
 impl<L: ContactLaw> Block<L> {
     /// Lists candidates anew, and hands over what contacts remember: what the block's own do, which goes
@@ -43,9 +43,9 @@ impl<L: ContactLaw> Block<L> {
     }
 
     /// What `memory`, in ascending order, holds of the block's contacts.
-    fn own<'a>(&self, memory: &'a Memories<L>) -> [&'a [Remembered<L::Memory>]; 2] {
+    fn own<'a>(&self, memory: &'a Memories<L>) -> [&'a [Remembered<Memory<L>>]; 2] {
         let slots = [self.slots.start as u32, self.slots.end as u32];
-        let own = |all: &'a [Remembered<L::Memory>], slot: fn(&Remembered<L::Memory>) -> u32| {
+        let own = |all: &'a [Remembered<Memory<L>>], slot: fn(&Remembered<Memory<L>>) -> u32| {
             let [start, end] = slots.map(|end| all.partition_point(|own| slot(own) < end));
             &all[start..end]
         };
@@ -57,12 +57,7 @@ impl<L: ContactLaw> Block<L> {
 
     /// Fills the empty lists.
     fn list<C: Cavity>(&mut self, listing: &Listing<'_, C, L>, partners: &mut [u32]) {
-        let Listing {
-            scene,
-            reach,
-            rows,
-            local,
-        } = *listing;
+        let Listing { scene, rows, local } = *listing;
         let begin = rows[self.slots.start];
         let beyond = |partner: &&u32| **partner as usize >= self.slots.end;
         let border = partners.iter().filter(beyond).count();
@@ -76,7 +71,7 @@ impl<L: ContactLaw> Block<L> {
             let each_once = |partner: &u32| last.replace(*partner) != Some(*partner);
             for partner in partners.iter().copied().filter(each_once) {
                 let other = partner as usize;
-                let reach = scene.radius[slot] + scene.radius[other] + reach;
+                let touching = scene.radius[slot] + scene.radius[other];
                 let list = if other < self.slots.end {
                     &mut self.pairs
                 } else {
@@ -84,9 +79,9 @@ impl<L: ContactLaw> Block<L> {
                 };
                 // The one with the lower number comes first, wherever it stands.
                 if scene.number[slot] < scene.number[other] {
-                    list.push(slot as u32, partner, reach * reach);
+                    list.push(slot as u32, partner, touching);
                 } else {
-                    list.push(partner, slot as u32, reach * reach);
+                    list.push(partner, slot as u32, touching);
                 }
             }
         }
@@ -94,11 +89,12 @@ impl<L: ContactLaw> Block<L> {
             // A wall does not come to meet a particle.
             let margin = 0.5 * room.margin;
             for slot in room.slots_in(&self.slots) {
-                let reach = scene.radius[slot] + reach;
+                let touching = scene.radius[slot];
                 for wall in 0..room.cavity.walls() {
                     let point = room.cavity.wall(wall, local[slot]);
-                    if point.distance < reach + margin {
-                        self.walls.push(slot as u32, room.first_wall + wall, reach);
+                    if point.distance < touching + scene.listed + margin {
+                        self.walls
+                            .push(slot as u32, room.first_wall + wall, touching);
                     }
                 }
             }
@@ -106,7 +102,7 @@ impl<L: ContactLaw> Block<L> {
     }
 
     /// Makes filled lists ready for use, but for what the law has to [`prepare`](Self::prepare).
-    fn finish(&mut self, stamp: u32, [pairs, walls]: [&[Remembered<L::Memory>]; 2]) {
+    fn finish(&mut self, stamp: u32, [pairs, walls]: [&[Remembered<Memory<L>>]; 2]) {
         self.pairs.finish(stamp, pairs, pair);
         self.border.finish(stamp, pairs, pair);
         self.walls.finish(stamp, walls, |slot, wall| (slot, wall));

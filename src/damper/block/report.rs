@@ -8,12 +8,12 @@ use crate::damper::Partner;
 use crate::damper::candidates::Candidates;
 use crate::damper::chunk::Chunk;
 use crate::damper::scene::Scene;
-use crate::law::ContactLaw;
+use crate::law::ForceLaw;
 use crate::observer::{ContactEvent, Observer};
 
 /// Tells `observer` of the pairs in `chunk`, which are in `list`.
 #[cold]
-pub(super) fn report_pairs<C: Cavity, L: ContactLaw>(
+pub(super) fn report_pairs<C: Cavity, L: ForceLaw>(
     scene: &Scene<'_, C, L>,
     list: &Candidates<L>,
     chunk: &Chunk<L>,
@@ -44,7 +44,7 @@ pub(super) fn report_pairs<C: Cavity, L: ContactLaw>(
 
 /// Tells `observer` of the contacts with walls in `chunk`.
 #[cold]
-pub(super) fn report_walls<C: Cavity, L: ContactLaw>(
+pub(super) fn report_walls<C: Cavity, L: ForceLaw>(
     scene: &Scene<'_, C, L>,
     list: &Candidates<L>,
     chunk: &Chunk<L>,

@@ -1,23 +1,23 @@
 //! From a builder to a damper: whatever can be refused is.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::Builder;
 use crate::cavity::Cavity;
-use crate::damper::block::{BLOCK, memories, room_for};
+use crate::damper::block::{BLOCK, memories};
 use crate::damper::clock::Clock;
 use crate::damper::coefficients::Coefficients;
+use crate::damper::contact_dynamics::ContactSolver;
 use crate::damper::engine::{Engine, MountState, Scratch};
 use crate::damper::error::BuildError;
-use crate::damper::impulse::Joints;
 use crate::damper::particles::Particles;
 use crate::damper::scene::{Room, WallLoad, World};
 use crate::damper::setup::Setup;
 use crate::damper::{Damper, smallest_radius};
-use crate::detector::{Bed, Detector};
-use crate::error::Bound;
+use crate::detector::Detector;
+use crate::error::{Bound, ValueError};
 use crate::integrator::{Integrator, Stage};
-use crate::law::{ContactLaw, Evaluation};
+use crate::law::{ContactLaw, ForceLaw, ImpulseLaw, LawKind, LawVisitor};
 use crate::mount::{Motion, Mount};
 use crate::parallel::Pool;
 use crate::particle::Particle;
@@ -49,15 +49,11 @@ where
         let planar = self.cavities.iter().all(Cavity::is_planar);
         let particles = Particles::new(&self.particles, numbers, planar);
         let coefficients = Coefficients::new(&self.law, &particles.kinds, self.wall_material)?;
+        L::Kind::accept(CheckLaw(&self.law))?;
         let time_step = self.choose_time_step(coefficients.time_step_limit(&self.law)?)?;
         let smallest = smallest_radius(&particles.kinds);
-        let reach = self.law.reach(time_step);
         let rooms = self.rooms(smallest);
         let walls = Engine::<C, L, M, D>::wall_count(&rooms);
-        let joints = match self.law.evaluation() {
-            Evaluation::EveryStage => Joints::default(),
-            _ => Joints::with_room(room_for(particles.len())),
-        };
         let mount_state = MountState::new(&self.mount, rooms.len());
         let mut engine = Engine {
             scratch: Scratch::new(&particles, mount_state.acceleration.len()),
@@ -67,7 +63,7 @@ where
             gravity: self.gravity,
             blocks: Engine::<C, L, M, D>::make_blocks(particles.len(), walls),
             memories: Pool::new(memories(particles.len())),
-            joints,
+            solver: L::Kind::HELD.then(|| ContactSolver::new(&particles.position, planar)),
             particles,
             wall_loads: vec![WallLoad::default(); walls],
             loads: vec![DVec3::ZERO; rooms.len()],
@@ -76,7 +72,8 @@ where
                 coefficients,
                 room_of_wall: room_of_wall(&rooms),
                 rooms,
-                reach,
+                reach: 0.0,
+                listed: 0.0,
                 stamp: 0,
                 time_step,
             },
@@ -243,6 +240,27 @@ where
     }
 }
 
+/// Refuses an impulse law whose solver cannot work so.
+struct CheckLaw<'a, L>(&'a L);
+
+impl<L: ContactLaw> LawVisitor<L> for CheckLaw<'_, L> {
+    type Output = Result<(), ValueError>;
+
+    fn forces(self) -> Self::Output
+    where
+        L: ForceLaw,
+    {
+        Ok(())
+    }
+
+    fn impulses(self) -> Self::Output
+    where
+        L: ImpulseLaw,
+    {
+        self.0.solver().check()
+    }
+}
+
 /// Number of the room of each wall.
 fn room_of_wall<C: Cavity>(rooms: &[Room<C>]) -> Vec<u32> {
     let rooms = rooms.iter().zip(0..);
@@ -251,7 +269,7 @@ fn room_of_wall<C: Cavity>(rooms: &[Room<C>]) -> Vec<u32> {
         .collect()
 }
 
-fn check_particle(particle: &Particle) -> Result<(), crate::ValueError> {
+fn check_particle(particle: &Particle) -> Result<(), ValueError> {
     Bound::Positive.check("radius (m)", particle.radius)?;
     Bound::Positive.check("mass (kg)", particle.mass)?;
     // Their reciprocals have to be finite.
@@ -282,39 +300,35 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Places the containers and the particles in them, refuses overlaps of more than `allowed` (m),
     /// and evaluates the first accelerations.
     fn start(&mut self, allowed: f64) -> Result<(), BuildError> {
-        for (cavity, room) in self.world.rooms.iter().enumerate() {
-            if room.cavity.is_planar() {
-                // A mount that leaves the plane shows it in how it yields.
-                let mobility = self.mount.mobility(cavity);
-                in_plane("axis of the mount", mobility.z_axis + mobility.row(2))?;
-            }
-        }
+        self.check_mount()?;
         self.place_containers(0.0)?;
-        let local: Vec<DVec3> = self.particles.position.iter().collect();
-        for (room, detector) in self.world.rooms.iter().zip(&mut self.detectors) {
-            let slots = room.slots.clone();
-            let bed = Bed::new(
-                &local[slots.clone()],
-                &self.particles.radius[slots],
-                room.cavity.bounds(),
-            )
-            .in_plane(room.cavity.is_planar())
-            .with_margin(room.margin + self.world.reach);
-            detector.prepare(&bed)?;
-        }
         for room in &self.world.rooms {
             for slot in room.slots.clone() {
-                let position = local[slot] + room.motion.position;
+                let position = self.particles.position.get(slot) + room.motion.position;
                 self.particles.position.set(slot, position);
             }
         }
+        self.prepare_detectors()?;
         self.sort();
         self.find_contacts(true)?;
         self.check_initial_overlaps(allowed)?;
-        if self.world.law.evaluation() == Evaluation::EveryStage {
-            self.evaluate(0.0, 0.0, Stage::Trial, false, &mut ())?;
-        } else {
-            self.accelerate_mount(0.0);
+        Ok(self.evaluate(0.0, 0.0, Stage::Trial, false, &mut ())?)
+    }
+
+    /// Refuses a mount that loads cannot move, and one that leaves the plane of a planar cavity.
+    fn check_mount(&self) -> Result<(), BuildError> {
+        let responses = self.container_responses();
+        if self.mount.degrees() > 0 && responses.iter().all(|own| *own == DMat3::ZERO) {
+            return Err(BuildError::ImmovableMount {
+                degrees: self.mount.degrees(),
+            });
+        }
+        let cavities = self.world.rooms.len();
+        for (number, response) in responses.iter().enumerate() {
+            if self.world.rooms[number % cavities].cavity.is_planar() {
+                // A mount that leaves the plane shows it in how it yields.
+                in_plane("axis of the mount", response.z_axis + response.row(2))?;
+            }
         }
         Ok(())
     }

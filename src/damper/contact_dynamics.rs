@@ -1,0 +1,192 @@
+//! Contact dynamics: the impulses of a step under an impulse law.
+//!
+//! Nonsmooth contact dynamics, Moreau's time stepping with projected Gauss-Seidel sweeps (sources and
+//! stages: [`SolverParameters`]). Called once at the beginning of a step; in comes the state there, out go
+//! accelerations of particles and loads on walls that hold over the step, with which an integrator then
+//! moves everything: x' = x + (v + v') dt/2. What is here serves the step alone, but for the forces that
+//! contacts at rest bore, from which the next step starts.
+
+use glam::DVec3;
+
+use super::engine::Engine;
+use super::error::StepError;
+use super::space::{Plane, Space, Volume};
+use super::vectors::Vectors;
+use crate::cavity::Cavity;
+use crate::detector::Detector;
+use crate::law::{ImpulseLaw, SolverParameters, SweepOrder};
+use crate::mount::Mount;
+use crate::observer::Observer;
+
+mod apply;
+mod constraint;
+mod container;
+mod energy;
+mod pairs;
+mod predict;
+mod prepare;
+mod report;
+mod sweep;
+
+use constraint::{ContactConstraint, RollingConstraint};
+use container::Containers;
+use pairs::Lanes;
+use prepare::Mark;
+
+/// A particle while impulses are worked out.
+#[derive(Debug, Clone, Copy, Default)]
+struct SolverBody<S: Space> {
+    /// m/s.
+    velocity: S::Vector,
+    /// Spin times radius, m/s.
+    spin: S::Spin,
+    /// 1/kg.
+    inverse_mass: f64,
+}
+
+/// What the impulses of a step are worked out with.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Stages<S: Space> {
+    /// Where the particles will be when contacts are looked for, fixed frame.
+    predicted: Vectors,
+    bodies: Vec<SolverBody<S>>,
+    containers: Containers<S>,
+    /// Active contacts: pairs, then walls.
+    constraints: Vec<ContactConstraint<S>>,
+    /// Of each constraint, what sweeps do not need.
+    marks: Vec<Mark>,
+    /// What resists rolling in each; empty if nothing does.
+    rolling: Vec<RollingConstraint<S>>,
+    /// How many constraints are pairs.
+    pairs: usize,
+    /// How many active contacts each particle has.
+    touches: Vec<u16>,
+    /// The constraints that one solve does not settle, in ascending order.
+    shared: Vec<u32>,
+    lanes: Lanes<S>,
+    /// Where the constraints of each list of contacts end.
+    ends: Vec<usize>,
+    /// Gap at the prediction up to which contacts may be active, m.
+    reach: f64,
+}
+
+/// The solver, in the plane or in space.
+#[derive(Debug, Clone)]
+pub(crate) enum ContactSolver {
+    Plane(Box<Stages<Plane>>),
+    Volume(Box<Stages<Volume>>),
+}
+
+impl ContactSolver {
+    /// A solver for particles that stand at `position`.
+    pub(crate) fn new(position: &Vectors, planar: bool) -> Self {
+        if planar {
+            Self::Plane(Box::new(Stages::new(position)))
+        } else {
+            Self::Volume(Box::new(Stages::new(position)))
+        }
+    }
+
+    /// Where the container of a cavity was when contacts were looked for.
+    pub(crate) fn origin(&self, cavity: usize) -> DVec3 {
+        match self {
+            Self::Plane(stages) => stages.containers.origin(cavity),
+            Self::Volume(stages) => stages.containers.origin(cavity),
+        }
+    }
+
+    /// Memory in bytes that is reserved.
+    pub(crate) fn reserved_bytes(&self) -> usize {
+        match self {
+            Self::Plane(stages) => stages.reserved_bytes(),
+            Self::Volume(stages) => stages.reserved_bytes(),
+        }
+    }
+}
+
+impl<S: Space> Stages<S> {
+    fn new(position: &Vectors) -> Self {
+        Self {
+            predicted: position.clone(),
+            ..Self::default()
+        }
+    }
+
+    fn reserved_bytes(&self) -> usize {
+        self.predicted.reserved_bytes()
+            + size_of::<SolverBody<S>>() * self.bodies.capacity()
+            + size_of::<ContactConstraint<S>>() * self.constraints.capacity()
+            + size_of::<Mark>() * self.marks.capacity()
+    }
+}
+
+/// A step of the solver.
+#[derive(Debug, Clone, Copy)]
+struct Step {
+    /// Length in s.
+    time_step: f64,
+    parameters: SolverParameters,
+}
+
+impl<C: Cavity, L: ImpulseLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
+    /// Works out the impulses of a step of `time_step` (s), and leaves the accelerations and the loads on
+    /// walls that hold over it.
+    pub(crate) fn solve_contacts<O: Observer>(
+        &mut self,
+        time_step: f64,
+        observer: &mut O,
+    ) -> Result<(), StepError> {
+        let step = Step {
+            time_step,
+            parameters: self.world.law.solver(),
+        };
+        // Out of the engine while it works on the rest of it.
+        let mut solver = self.solver.take();
+        let outcome = match &mut solver {
+            Some(ContactSolver::Plane(stages)) => self.solve(&step, stages, observer),
+            Some(ContactSolver::Volume(stages)) => self.solve(&step, stages, observer),
+            None => Ok(()),
+        };
+        self.solver = solver;
+        outcome
+    }
+
+    /// Lists what is in reach, and prepares the constraints, of the bed where it will be.
+    fn find_constraints<S: Space>(
+        &mut self,
+        step: &Step,
+        stages: &mut Stages<S>,
+    ) -> Result<(), StepError> {
+        self.reach_out(stages.reach)?;
+        self.find_contacts(true)?;
+        self.prepare(step, stages);
+        self.check_overlaps()
+    }
+
+    fn solve<S: Space, O: Observer>(
+        &mut self,
+        step: &Step,
+        stages: &mut Stages<S>,
+        observer: &mut O,
+    ) -> Result<(), StepError> {
+        self.place_containers(self.time)?;
+        self.predict(step, stages)?;
+        std::mem::swap(&mut self.particles.position, &mut stages.predicted);
+        let found = self.find_constraints(step, stages);
+        std::mem::swap(&mut self.particles.position, &mut stages.predicted);
+        found?;
+        stages.list_shared();
+        stages.warm_start();
+        for sweep in 0..step.parameters.sweeps {
+            match step.parameters.order {
+                SweepOrder::Sequential => stages.sweep(sweep),
+                SweepOrder::Simultaneous => stages.sweep_at_once(),
+            }
+        }
+        self.apply(step, stages)?;
+        if observer.wants_contacts() {
+            self.report(step, stages, observer);
+        }
+        Ok(())
+    }
+}

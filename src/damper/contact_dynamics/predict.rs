@@ -1,0 +1,108 @@
+//! Where contacts are looked for, and the velocities that the step leaves without them.
+
+use super::{SolverBody, Stages, Step};
+use crate::cavity::Cavity;
+use crate::damper::engine::Engine;
+use crate::damper::error::StepError;
+use crate::damper::space::Space;
+use crate::detector::Detector;
+use crate::law::{ContactLaw, at_least};
+use crate::mount::Mount;
+
+impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
+    /// Works out where the particles will be at the prediction, moves the containers there, and gives
+    /// everything its free velocity: what it has at the end of the step without contacts.
+    ///
+    /// Refuses particles that could pass others, or a wall, unseen: two bodies that come closer by less than
+    /// the sum of their radii in a step do not miss each other, whatever their restitution.
+    pub(super) fn predict<S: Space>(
+        &mut self,
+        step: &Step,
+        stages: &mut Stages<S>,
+    ) -> Result<(), StepError> {
+        self.free_containers(step.time_step, &mut stages.containers);
+        let mut fastest = 0.0;
+        stages.bodies.clear();
+        for cavity in 0..self.world.rooms.len() {
+            let (relative, too_fast) = self.predict_cavity(step, stages, cavity);
+            if let (true, Some(slot)) = (self.contained, too_fast) {
+                return Err(self.too_fast(slot, step.time_step));
+            }
+            fastest = at_least(relative, fastest);
+        }
+        let ahead = step.parameters.prediction * step.time_step;
+        for (room, container) in self.world.rooms.iter_mut().zip(&mut stages.containers.each) {
+            room.motion.position += room.motion.velocity * ahead;
+            container.origin = room.motion.position;
+        }
+        // Two bodies approach at twice the speed of the faster one at the most, and a wall at what its
+        // container gains besides.
+        let falls = stages
+            .containers
+            .each
+            .iter()
+            .map(|container| container.fall);
+        stages.reach = ahead * (2.0 * fastest + falls.fold(0.0, f64::max));
+        Ok(())
+    }
+
+    /// The same for the particles of a cavity. Returns the greatest speed (m/s) relative to the container,
+    /// and a particle that moves by more than its radius in the step.
+    fn predict_cavity<S: Space>(
+        &self,
+        step: &Step,
+        stages: &mut Stages<S>,
+        cavity: usize,
+    ) -> (f64, Option<usize>) {
+        let room = &self.world.rooms[cavity];
+        let slots = room.slots.clone();
+        let particles = &self.particles;
+        let position = &S::rows(particles.position.flat())[slots.clone()];
+        let velocity = &S::rows(particles.velocity.flat())[slots.clone()];
+        let spin = &S::spin_rows(particles.spin.flat())[slots.clone()];
+        let radius = &particles.radius[slots.clone()];
+        let inverse_mass = &particles.inverse_mass[slots.clone()];
+        let predicted = &mut S::rows_mut(stages.predicted.flat_mut())[slots.clone()];
+        let container = S::vector(room.motion.velocity);
+        let gain = S::vector(self.gravity * step.time_step);
+        let ahead = step.parameters.prediction * step.time_step;
+        let rate = 1.0 / (step.time_step * step.time_step);
+        let (mut fastest, mut too_fast) = (0.0, None);
+        let all = position
+            .iter()
+            .zip(velocity)
+            .zip(spin)
+            .zip(radius)
+            .zip(inverse_mass);
+        let all = all.zip(predicted).enumerate();
+        stages.bodies.extend(all.map(
+            |(n, (((((position, velocity), spin), &radius), &inverse_mass), predicted))| {
+                let velocity = S::from_row(*velocity);
+                *predicted = S::row(S::from_row(*position) + velocity * ahead);
+                let relative = velocity - container;
+                let square = S::dot(relative, relative);
+                fastest = at_least(square, fastest);
+                if square > radius * radius * rate {
+                    too_fast = Some(slots.start + n);
+                }
+                SolverBody {
+                    velocity: velocity + gain,
+                    spin: S::from_spin_row(*spin) * radius,
+                    inverse_mass,
+                }
+            },
+        ));
+        (fastest.sqrt(), too_fast)
+    }
+
+    fn too_fast(&self, slot: usize, time_step: f64) -> StepError {
+        let container = self.world.rooms[self.world.cavity_of(slot)].motion;
+        let relative = self.particles.velocity.get(slot) - container.velocity;
+        StepError::TooFast {
+            particle: self.particles.number[slot] as usize,
+            speed: relative.length(),
+            time_step,
+            limit: self.particles.radius[slot] / time_step,
+        }
+    }
+}

@@ -1,0 +1,182 @@
+use super::{ContactLaw, Forces};
+use crate::contact::{Contact, ContactForce, Edge, Stored};
+
+/// A contact law that answers with a force, a function of the instant: it is asked at every stage of an
+/// integrator.
+///
+/// # Using
+/// [`HertzTsuji`](crate::HertzTsuji) is the paper's; [`HertzMindlin`](crate::HertzMindlin) has a
+/// tangential spring besides.
+///
+/// # Implementing
+/// 1. [`force`](Self::force) is called for touching bodies alone (overlap > 0). It answers with the
+///    force on the first body; the engine turns it into opposite forces and into torques. It must
+///    be a function of its arguments: same arguments, same bits.
+/// 2. A law whose contacts have a past names it as [`Memory`](Self::Memory). A contact starts with
+///    the default; [`advance`](Self::advance) is called once per accepted step for each contact
+///    that touches, and a contact that separates forgets. A law without memory uses `()` and pays
+///    nothing.
+/// 3. Forces are taken step by step, and what they miss of an impact where it begins and ends between
+///    two of them can be made up for: see [`at_edge`](Self::at_edge).
+/// 4. [`stored`](Self::stored) tells energy that a contact holds from energy that it has lost. It is
+///    asked only by observers; by default all of the force's work counts as lost, or as a negative
+///    loss where it is given back.
+///
+/// A linear spring and dashpot, complete:
+/// ```
+/// use particle_damper::{Bodies, Contact, ContactForce, ContactLaw, ForceLaw, Forces, LawError};
+/// use glam::DVec3;
+///
+/// struct SpringDashpot {
+///     stiffness: f64, // N/m
+///     damping: f64,   // N s/m
+/// }
+///
+/// impl ContactLaw for SpringDashpot {
+///     type Kind = Forces;
+///     type Coefficients = f64; // longest step, s
+///
+///     fn coefficients(&self, bodies: &Bodies) -> Result<f64, LawError> {
+///         let half_period = std::f64::consts::PI * (bodies.effective_mass() / self.stiffness).sqrt();
+///         Ok(half_period / 5.0)
+///     }
+///     fn time_step_limit(&self, longest: &f64) -> f64 {
+///         *longest
+///     }
+/// }
+///
+/// impl ForceLaw for SpringDashpot {
+///     type Memory = ();
+///
+///     fn force(&self, _: &f64, contact: &Contact, _: &()) -> ContactForce {
+///         let normal = self.stiffness * contact.overlap + self.damping * contact.approach_speed();
+///         ContactForce::new(normal.max(0.0), DVec3::ZERO)
+///     }
+/// }
+/// ```
+pub trait ForceLaw: ContactLaw<Kind = Forces> {
+    /// What a contact remembers from step to step; `()` for nothing.
+    type Memory: Copy + Default + std::fmt::Debug + PartialEq + Send + Sync;
+
+    /// The force on the first body of `contact`, in N and N m.
+    fn force(
+        &self,
+        coefficients: &Self::Coefficients,
+        contact: &Contact,
+        memory: &Self::Memory,
+    ) -> ContactForce;
+
+    /// What the contact remembers at the end of the step, from `memory` at its start and the
+    /// contact at its end.
+    #[inline]
+    fn advance(
+        &self,
+        _coefficients: &Self::Coefficients,
+        _contact: &Contact,
+        memory: &Self::Memory,
+    ) -> Self::Memory {
+        *memory
+    }
+
+    /// Whether [`at_edge`](Self::at_edge) is to be asked.
+    #[inline]
+    fn has_edges(&self) -> bool {
+        false
+    }
+
+    /// The force, and what the contact remembers, where the bodies may have met or may part within
+    /// the step ([`Edge::is_near`]). Asked instead of [`force`](Self::force) and
+    /// [`advance`](Self::advance) if the law [has edges](Self::has_edges) to be mended: a contact sets in between two
+    /// evaluations, and if its force starts like a power p of time they miss an impulse of the power
+    /// p + 1 of the step.
+    fn at_edge(
+        &self,
+        coefficients: &Self::Coefficients,
+        contact: &Contact,
+        memory: &Self::Memory,
+        _edge: &Edge,
+    ) -> (ContactForce, Self::Memory) {
+        (
+            self.force(coefficients, contact, memory),
+            self.advance(coefficients, contact, memory),
+        )
+    }
+
+    /// What the contact holds and can give back, with what it remembers at the end of the step.
+    fn stored(
+        &self,
+        _coefficients: &Self::Coefficients,
+        _contact: &Contact,
+        _memory: &Self::Memory,
+    ) -> Stored {
+        Stored::default()
+    }
+
+    /// Whether the answers for two bodies can have a [`couple`](ContactForce::couple). A law that says
+    /// no is spared the work: the engine passes over the couples.
+    #[inline]
+    fn has_couple(&self, _coefficients: &Self::Coefficients) -> bool {
+        true
+    }
+}
+
+macro_rules! forward_law {
+    ($reference:ty) => {
+        impl<L: ForceLaw + ?Sized> ForceLaw for $reference {
+            type Memory = L::Memory;
+
+            #[inline]
+            fn force(
+                &self,
+                coefficients: &Self::Coefficients,
+                contact: &Contact,
+                memory: &Self::Memory,
+            ) -> ContactForce {
+                (**self).force(coefficients, contact, memory)
+            }
+
+            #[inline]
+            fn advance(
+                &self,
+                coefficients: &Self::Coefficients,
+                contact: &Contact,
+                memory: &Self::Memory,
+            ) -> Self::Memory {
+                (**self).advance(coefficients, contact, memory)
+            }
+
+            #[inline]
+            fn has_edges(&self) -> bool {
+                (**self).has_edges()
+            }
+
+            fn at_edge(
+                &self,
+                coefficients: &Self::Coefficients,
+                contact: &Contact,
+                memory: &Self::Memory,
+                edge: &Edge,
+            ) -> (ContactForce, Self::Memory) {
+                (**self).at_edge(coefficients, contact, memory, edge)
+            }
+
+            fn stored(
+                &self,
+                coefficients: &Self::Coefficients,
+                contact: &Contact,
+                memory: &Self::Memory,
+            ) -> Stored {
+                (**self).stored(coefficients, contact, memory)
+            }
+
+            #[inline]
+            fn has_couple(&self, coefficients: &Self::Coefficients) -> bool {
+                (**self).has_couple(coefficients)
+            }
+        }
+    };
+}
+
+forward_law!(&L);
+forward_law!(&mut L);
+forward_law!(Box<L>);

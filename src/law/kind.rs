@@ -1,0 +1,73 @@
+//! The two kinds of contact law, as types.
+
+use std::fmt::Debug;
+
+use super::{ContactLaw, ForceLaw, ImpulseLaw};
+use crate::contact::HeldForce;
+
+/// The [kind](ContactLaw::Kind) of a [`ForceLaw`]: forces at every stage of an integrator.
+#[derive(Debug, Clone, Copy)]
+pub enum Forces {}
+
+/// The [kind](ContactLaw::Kind) of an [`ImpulseLaw`]: impulses, worked out once a step and held over it.
+#[derive(Debug, Clone, Copy)]
+pub enum Impulses {}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Forces {}
+    impl Sealed for super::Impulses {}
+}
+
+/// The kind of the contact law `L`: [`Forces`] or [`Impulses`], and no other.
+pub trait LawKind<L: ?Sized>: sealed::Sealed {
+    /// What a contact remembers from step to step: what a force law [says](ForceLaw::Memory), or the
+    /// [force](HeldForce) that the contact bore over the step, from which the next one starts.
+    type Memory: Copy + Default + Debug + PartialEq + Send + Sync;
+
+    /// Whether contact forces hold over a step.
+    const HELD: bool;
+
+    /// Takes a law of this kind to the method for it.
+    #[doc(hidden)]
+    fn accept<V: LawVisitor<L>>(visitor: V) -> V::Output;
+}
+
+/// What is done in one way under a force law and in another under an impulse law.
+pub trait LawVisitor<L: ?Sized> {
+    /// What comes of it.
+    type Output;
+
+    /// Under a force law.
+    fn forces(self) -> Self::Output
+    where
+        L: ForceLaw;
+
+    /// Under an impulse law.
+    fn impulses(self) -> Self::Output
+    where
+        L: ImpulseLaw;
+}
+
+impl<L: ForceLaw + ?Sized> LawKind<L> for Forces {
+    type Memory = L::Memory;
+
+    const HELD: bool = false;
+
+    fn accept<V: LawVisitor<L>>(visitor: V) -> V::Output {
+        visitor.forces()
+    }
+}
+
+impl<L: ImpulseLaw + ?Sized> LawKind<L> for Impulses {
+    type Memory = HeldForce;
+
+    const HELD: bool = true;
+
+    fn accept<V: LawVisitor<L>>(visitor: V) -> V::Output {
+        visitor.impulses()
+    }
+}
+
+/// What contacts under the law `L` remember from step to step.
+pub(crate) type Memory<L> = <<L as ContactLaw>::Kind as LawKind<L>>::Memory;
