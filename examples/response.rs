@@ -161,7 +161,7 @@ impl Options {
         }
     }
 
-    fn under<L: ContactLaw>(
+    fn under<L: ContactLaw + Clone>(
         &self,
         law: L,
         variant: Variant,
