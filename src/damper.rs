@@ -7,7 +7,6 @@ use glam::DVec3;
 use crate::cavity::{Cavity, clearance};
 use crate::contact::Body;
 use crate::detector::{Detector, LinkedCells, Skin};
-use crate::error::Bound;
 use crate::integrator::{Integrator, VelocityVerlet};
 use crate::law::{ContactLaw, Evaluation};
 use crate::mount::{Driven, Motion, Mount};
@@ -21,6 +20,7 @@ mod chunk;
 mod clock;
 mod coefficients;
 mod detection;
+mod drive;
 mod engine;
 mod error;
 mod impulse;
@@ -37,9 +37,6 @@ pub use builder::Builder;
 pub use error::{BuildError, StepError};
 pub use scene::WallLoad;
 pub use snapshot::{RestoreError, Snapshot};
-
-/// The most steps of one call.
-const MOST_STEPS: f64 = 1e9;
 
 use clock::Clock;
 use engine::Engine;
@@ -301,55 +298,6 @@ where
         self.particles()
             .map(|particle| particle.velocity * particle.mass)
             .sum()
-    }
-}
-
-impl<C, L, D, I> Damper<C, L, Driven, D, I>
-where
-    C: Cavity,
-    L: ContactLaw,
-    D: Detector,
-    I: Integrator,
-{
-    /// Moves the container to `end` within `interval` (s), in as many steps as it takes to stay
-    /// within the time step, and returns what the particles did to it: the force at the end, and the
-    /// impulse over the interval.
-    ///
-    /// # Errors
-    /// If the interval is not positive or longer than a thousand million steps, or the motion is not
-    /// finite; else as [`step`](Self::step).
-    pub fn drive(&mut self, end: Motion, interval: f64) -> Result<Reaction, StepError> {
-        self.drive_watched(end, interval, &mut ())
-    }
-
-    /// As [`drive`](Self::drive), under the eyes of `observer`.
-    ///
-    /// # Errors
-    /// As [`drive`](Self::drive).
-    pub fn drive_watched<O: Observer>(
-        &mut self,
-        end: Motion,
-        interval: f64,
-        observer: &mut O,
-    ) -> Result<Reaction, StepError> {
-        Bound::Positive.check("interval (s)", interval)?;
-        Bound::AtMost(MOST_STEPS * self.time_step).check("interval (s)", interval)?;
-        if !(end.position.is_finite() && end.velocity.is_finite()) {
-            return Err(StepError::Container {
-                cavity: 0,
-                position: end.position,
-                velocity: end.velocity,
-            });
-        }
-        let from = self.container(0).unwrap_or_default();
-        self.engine.mount.head_for(self.time(), interval, from, end);
-        self.forget_impulses();
-        // A hair of tolerance, so that a multiple of the time step is not cut once more.
-        let steps = (interval / self.time_step * (1.0 - 1e-12)).ceil().max(1.0);
-        for _ in 0..steps as u64 {
-            self.advance(interval / steps, observer)?;
-        }
-        Ok(self.reaction(0).unwrap_or_default())
     }
 }
 

@@ -6,8 +6,8 @@ use std::sync::{Arc, Mutex};
 use glam::{DMat3, DVec3, dvec3};
 use particle_damper::{
     Bodies, Bound, Contact, ContactForce, ContactLaw, Cuboid, Damper, Driven, Evaluation, Filling,
-    HertzMindlin, HertzTsuji, LawError, LinkedCells, Material, Motion, Mount, Particle, Partner,
-    RestitutionImpulse, Skin, StepError,
+    Frame, HertzMindlin, HertzTsuji, LawError, LinkedCells, Material, Motion, Mount, Observer,
+    Particle, Partner, RestitutionImpulse, Skin, StepError,
 };
 
 type Hosted<L> = Damper<Cuboid, L, Driven, Skin<LinkedCells>>;
@@ -308,4 +308,69 @@ fn a_step_taken_back_leaves_no_trace() {
         assert_eq!(reaction, straight.drive(end, 1e-3).unwrap());
     }
     assert_eq!(damper.snapshot(), straight.snapshot());
+}
+
+/// Counts steps.
+#[derive(Default)]
+struct Steps(u64);
+
+impl Observer for Steps {
+    fn step(&mut self, _frame: &Frame<'_>) {
+        self.0 += 1;
+    }
+}
+
+/// A host that hands in differences of its times got a step more in a third of its calls at 10 s, and
+/// other bits at every time of day.
+#[test]
+fn the_steps_of_an_interval_do_not_depend_on_when_it_begins() {
+    fn run<L: ContactLaw + Clone>(law: &L, begin: f64, to: bool) -> Vec<[u64; 3]> {
+        let filling = Filling::new(2).with(20, Particle::new(3e-3, 0.2e-3).unwrap());
+        let cavity = Cuboid::new(DVec3::splat(0.03)).unwrap();
+        let mut damper = Damper::builder(cavity, law.clone())
+            .particles(filling.fill(&cavity).unwrap())
+            .time_step(1e-5)
+            .start_time(begin)
+            .build()
+            .unwrap();
+        let mut bits = Vec::new();
+        let mut last = begin;
+        for call in 1..=200 {
+            let time = begin + f64::from(call) * 1e-4;
+            let (end, mut steps) = (shaken(f64::from(call) * 1e-4), Steps::default());
+            let reaction = if to {
+                damper.drive_to_watched(end, time, &mut steps)
+            } else {
+                damper.drive_watched(end, time - last, &mut steps)
+            };
+            assert_eq!(steps.0, 10, "from {last} to {time}");
+            assert!((damper.time() - time).abs() <= 4e-9);
+            bits.push(reaction.unwrap().impulse.to_array().map(f64::to_bits));
+            last = time;
+        }
+        bits
+    }
+    fn at_any_time<L: ContactLaw + Clone>(law: &L) {
+        let expected = run(law, 0.0, false);
+        for begin in [0.0, 10.0, 86_400.0, 1e7 - 1.0] {
+            assert_eq!(run(law, begin, false), expected, "from {begin}");
+            assert_eq!(run(law, begin, true), expected, "to a time from {begin}");
+        }
+    }
+    at_any_time(&HertzTsuji::new(Material::acrylic()));
+    at_any_time(&RestitutionImpulse::new(Material::acrylic()));
+}
+
+#[test]
+fn a_time_that_has_passed_is_refused() {
+    let mut damper = hosted(HertzTsuji::new(Material::acrylic()));
+    damper.drive_to(shaken(1e-4), 1e-4).unwrap();
+    for time in [1e-4, 0.0, f64::NAN] {
+        let error = damper.drive_to(shaken(1e-4), time).unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .starts_with("time (s) must be finite and above 0.0001")
+        );
+    }
 }

@@ -23,6 +23,7 @@ pub struct Builder<C, L, M = Driven, D = Skin<LinkedCells>, I = VelocityVerlet> 
     integrator: I,
     gravity: DVec3,
     time_step: Option<f64>,
+    start_time: f64,
     wall_material: MaterialId,
     particles: Vec<Particle>,
     initial_overlap: f64,
@@ -41,6 +42,7 @@ impl<C, L> Builder<C, L> {
             integrator: VelocityVerlet,
             gravity: DVec3::NEG_Y * 9.81,
             time_step: None,
+            start_time: 0.0,
             wall_material: Materials::FIRST,
             particles: Vec::new(),
             initial_overlap: INITIAL_OVERLAP,
@@ -62,6 +64,7 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
             integrator: self.integrator,
             gravity: self.gravity,
             time_step: self.time_step,
+            start_time: self.start_time,
             wall_material: self.wall_material,
             particles: self.particles,
             initial_overlap: self.initial_overlap,
@@ -95,6 +98,7 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
             integrator,
             gravity: self.gravity,
             time_step: self.time_step,
+            start_time: self.start_time,
             wall_material: self.wall_material,
             particles: self.particles,
             initial_overlap: self.initial_overlap,
@@ -117,6 +121,7 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
             integrator: self.integrator,
             gravity: self.gravity,
             time_step: self.time_step,
+            start_time: self.start_time,
             wall_material: self.wall_material,
             particles: self.particles,
             initial_overlap: self.initial_overlap,
@@ -140,6 +145,12 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
     /// Length of a step in s; half of what the law allows unless set.
     pub const fn time_step(mut self, time_step: f64) -> Self {
         self.time_step = Some(time_step);
+        self
+    }
+
+    /// Simulated time at the start in s; zero unless set.
+    pub const fn start_time(mut self, time: f64) -> Self {
+        self.start_time = time;
         self
     }
 

@@ -33,6 +33,9 @@
 //! - **Sub-steps** are the damper's own affair: the interval is cut so that no step is longer than its
 //!   [time step](crate::Builder::time_step). Between its ends the container follows the cubic that has
 //!   both motions.
+//! - **A clock**: hand in an interval, or the time at its end
+//!   ([`drive_to`](crate::Damper::drive_to), from [`start_time`](crate::Builder::start_time) on). A
+//!   difference of two times up to 1e7 s counts as the multiple of the time step that it was meant to be.
 //! - **Where it starts**: `.mount(Driven::at(motion))`, else at the origin and at rest. Gravity is the
 //!   damper's: the particles' weight comes back as part of the impulse.
 //! - **Several cavities, or a structure with equations of its own**: a [`Mount`](crate::Mount) of your

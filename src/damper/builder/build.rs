@@ -80,7 +80,7 @@ where
                 stamp: 0,
                 time_step,
             },
-            time: 0.0,
+            time: self.start_time,
             detections: 0,
             since_sort: 0,
             overlap_limit: self.overlap_limit * smallest,
@@ -91,7 +91,7 @@ where
             setup: Setup::new(&engine, time_step),
             engine,
             integrator: self.integrator,
-            clock: Clock::default(),
+            clock: Clock::showing(self.start_time),
             time_step,
         })
     }
@@ -103,6 +103,7 @@ where
         if let Some(time_step) = self.time_step {
             Bound::Positive.check("time step (s)", time_step)?;
         }
+        Bound::Finite.check("start time (s)", self.start_time)?;
         Bound::NonNegative.check(
             "initial overlap (fraction of a radius)",
             self.initial_overlap,
@@ -289,7 +290,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 in_plane("axis of the mount", mobility.z_axis + mobility.row(2))?;
             }
         }
-        self.place_containers(0.0)?;
+        self.place_containers(self.time)?;
         let local: Vec<DVec3> = self.particles.position.iter().collect();
         for (room, detector) in self.world.rooms.iter().zip(&mut self.detectors) {
             let slots = room.slots.clone();
@@ -312,9 +313,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         self.find_contacts(true)?;
         self.check_initial_overlaps(allowed)?;
         if self.world.law.evaluation() == Evaluation::EveryStage {
-            self.evaluate(0.0, 0.0, Stage::Trial, false, &mut ())?;
+            self.evaluate(self.time, 0.0, Stage::Trial, false, &mut ())?;
         } else {
-            self.accelerate_mount(0.0);
+            self.accelerate_mount(self.time);
         }
         Ok(())
     }
