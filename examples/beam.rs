@@ -105,6 +105,10 @@ impl Mount for Beam {
         }
     }
 
+    fn highest_frequency(&self) -> f64 {
+        self.omega[MODES - 1] / std::f64::consts::TAU
+    }
+
     fn mobility(&self, _cavity: usize) -> DMat3 {
         DMat3::from_diagonal(DVec3::Y * self.yielding())
     }

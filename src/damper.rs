@@ -34,7 +34,7 @@ pub(crate) mod vectors;
 mod view;
 
 pub use builder::Builder;
-pub use error::{BuildError, StepError};
+pub use error::{BuildError, StepBound, StepError};
 pub use scene::WallLoad;
 pub use snapshot::{RestoreError, Snapshot};
 

@@ -16,5 +16,7 @@ mod laws;
 mod parts;
 #[path = "errors/running.rs"]
 mod running;
+#[path = "errors/steps.rs"]
+mod steps;
 #[path = "errors/table.rs"]
 mod table;

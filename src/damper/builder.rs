@@ -7,6 +7,7 @@ use crate::mount::{Driven, Mount};
 use crate::particle::Particle;
 
 mod build;
+mod time_step;
 
 /// Overlaps up to this fraction of the smallest radius are taken for contacts of a settled bed.
 const INITIAL_OVERLAP: f64 = 0.05;
@@ -142,7 +143,8 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
         self
     }
 
-    /// Length of a step in s; half of what the law allows unless set.
+    /// Length of a step in s. Unless set, half of what the law allows, and no more than the mount's
+    /// [natural frequency](Mount::highest_frequency) and the [excitation](Mount::shortest_feature) do.
     pub const fn time_step(mut self, time_step: f64) -> Self {
         self.time_step = Some(time_step);
         self

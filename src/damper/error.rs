@@ -1,8 +1,63 @@
+use std::fmt;
+
 use glam::DVec3;
 
 use crate::detector::DetectorError;
 use crate::error::ValueError;
+use crate::excitation::Jump;
 use crate::law::LawError;
+
+/// What sets the longest time step of a damper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum StepBound {
+    /// The contact of two particles under the contact law.
+    Pair {
+        /// Number of a particle.
+        first: usize,
+        /// Number of another of the kind that it meets, or of the same one if it is the only one.
+        second: usize,
+    },
+    /// The contact of a particle and a wall under the contact law.
+    Wall {
+        /// Number of the particle.
+        particle: usize,
+    },
+    /// The mount: 20 steps to a period of its highest natural frequency.
+    NaturalFrequency {
+        /// The frequency in Hz.
+        frequency: f64,
+    },
+    /// The excitation: ten steps to its shortest feature.
+    Feature {
+        /// How long it takes, s.
+        duration: f64,
+    },
+}
+
+impl fmt::Display for StepBound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Pair { first, second } if first == second => {
+                write!(f, "the contact law for two particles like {first}")
+            }
+            Self::Pair { first, second } => {
+                write!(f, "the contact law for particles like {first} and {second}")
+            }
+            Self::Wall { particle } => {
+                write!(f, "the contact law for particle {particle} at a wall")
+            }
+            Self::NaturalFrequency { frequency } => write!(
+                f,
+                "the mount, whose natural frequency of {frequency} Hz 20 steps to a period keep to 0.5 %"
+            ),
+            Self::Feature { duration } => write!(
+                f,
+                "the excitation, of whose shortest feature of {duration} s ten steps keep the impulse to 1 %"
+            ),
+        }
+    }
+}
 
 /// Why a damper could not be built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -83,14 +138,22 @@ pub enum BuildError {
         /// How many cavities there are.
         cavities: usize,
     },
-    /// The time step is longer than the law can bear.
-    #[error("time step {time_step} s is longer than the contact law bears: at most {limit} s")]
+    /// The time step is longer than some part can bear.
+    #[error("time step {time_step} s is too long: at most {limit} s is borne by {bound}")]
     TimeStepTooLong {
         /// The step asked for in s.
         time_step: f64,
         /// The longest step in s.
         limit: f64,
+        /// What sets the limit.
+        bound: StepBound,
     },
+    /// The base of the mount jumps.
+    #[error(
+        "the base jumps at {} s, by {} m and {} m/s; what it does beyond a record can be chosen (`Sampled::beyond`)",
+        .0.time, .0.value, .0.rate
+    )]
+    BaseJumps(Jump),
     /// Neither one detector for each cavity, nor one that can be copied.
     #[error("there are {cavities} cavities and {detectors} detectors; each cavity needs its own")]
     DetectorCount {
@@ -110,8 +173,8 @@ pub enum BuildError {
     /// The first evaluation failed.
     #[error(transparent)]
     Start(#[from] StepError),
-    /// No time step was given, and the law sets no limit to derive one from.
-    #[error("no time step was given, and the contact law does not limit it")]
+    /// No time step was given, and no part sets a limit to derive one from.
+    #[error("no time step was given, and neither contact law nor mount limit it")]
     NoTimeStep,
     /// More particles than 32-bit numbers can count.
     #[error("{count} particles are more than the limit of {limit}")]

@@ -119,6 +119,10 @@ impl Signal for Chirp {
     fn value(&self, time: f64) -> f64 {
         self.amplitude * self.phase(time).sin()
     }
+
+    fn shortest_feature(&self) -> f64 {
+        0.5 / self.frequencies[0].max(self.frequencies[1])
+    }
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::Signal;
 use crate::error::{Bound, ValueError};
@@ -47,6 +47,10 @@ impl Signal for Harmonic {
     #[inline]
     fn value(&self, time: f64) -> f64 {
         self.amplitude * (self.angular_frequency * time + self.phase).sin()
+    }
+
+    fn shortest_feature(&self) -> f64 {
+        PI / self.angular_frequency
     }
 }
 

@@ -1,4 +1,4 @@
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::Signal;
 use crate::error::{Bound, ValueError};
@@ -70,6 +70,11 @@ impl Signal for BandLimitedNoise {
             value += (omega * time + phase).sin();
         }
         self.amplitude * value
+    }
+
+    fn shortest_feature(&self) -> f64 {
+        let omega = self.components.iter().map(|[omega, _]| *omega);
+        PI / omega.fold(0.0, f64::max)
     }
 }
 

@@ -49,7 +49,7 @@ where
         let planar = self.cavities.iter().all(Cavity::is_planar);
         let particles = Particles::new(&self.particles, numbers, planar);
         let coefficients = Coefficients::new(&self.law, &particles.kinds, self.wall_material)?;
-        let time_step = self.choose_time_step(coefficients.time_step_limit(&self.law)?)?;
+        let time_step = self.choose_time_step(&coefficients, &particles)?;
         let smallest = smallest_radius(&particles.kinds);
         let reach = self.law.reach(time_step);
         let rooms = self.rooms(smallest);
@@ -110,6 +110,9 @@ where
         )?;
         if self.overlap_limit.is_nan() || self.overlap_limit <= 0.0 {
             Bound::Positive.check("overlap limit (fraction of a radius)", self.overlap_limit)?;
+        }
+        if let Some(jump) = self.mount.jump() {
+            return Err(BuildError::BaseJumps(jump));
         }
         if self.cavities.iter().any(Cavity::is_planar) {
             in_plane("gravity", self.gravity)?;
@@ -202,19 +205,6 @@ where
             .map(|number| self.particles[*number as usize])
             .collect();
         numbers
-    }
-
-    fn choose_time_step(&self, limit: f64) -> Result<f64, BuildError> {
-        match self.time_step {
-            Some(time_step) if time_step > limit => {
-                Err(BuildError::TimeStepTooLong { time_step, limit })
-            }
-            Some(time_step) => Ok(time_step),
-            None if limit.is_finite() => Ok(
-                Bound::Positive.check("time step (s), half of the law's limit,", 0.5 * limit)?
-            ),
-            None => Err(BuildError::NoTimeStep),
-        }
     }
 
     fn rooms(&mut self, smallest_radius: f64) -> Vec<Room<C>> {
