@@ -16,6 +16,7 @@ use crate::particle::Particle;
 mod block;
 mod builder;
 mod candidates;
+mod cause;
 mod chunk;
 mod clock;
 mod coefficients;
@@ -34,6 +35,7 @@ pub(crate) mod vectors;
 mod view;
 
 pub use builder::Builder;
+pub use cause::Cause;
 pub use error::{BuildError, StepBound, StepError};
 pub use scene::WallLoad;
 pub use snapshot::{RestoreError, Snapshot};
@@ -109,7 +111,18 @@ where
     /// As [`step`](Self::step).
     pub fn step_watched<O: Observer>(&mut self, observer: &mut O) -> Result<(), StepError> {
         self.forget_impulses();
-        self.advance(self.time_step, observer)
+        let done = self.advance(self.time_step, observer);
+        // Particles that are found out of place may be so because walls are not where they say.
+        if matches!(
+            done,
+            Ok(())
+                | Err(StepError::Escaped { .. }
+                    | StepError::Overlap { .. }
+                    | StepError::Jump { .. })
+        ) {
+            self.engine.check_rates()?;
+        }
+        done
     }
 
     /// Starts the sums of impulses on the containers afresh.
@@ -121,6 +134,7 @@ where
     }
 
     fn advance<O: Observer>(&mut self, dt: f64, observer: &mut O) -> Result<(), StepError> {
+        self.engine.begin(dt);
         self.engine.sort_in_time()?;
         let impulsive = self.engine.world.law.evaluation() != Evaluation::EveryStage;
         if impulsive {
@@ -140,6 +154,7 @@ where
         } else {
             self.engine.world.stamp = self.engine.world.stamp.wrapping_add(1);
         }
+        self.engine.check_course()?;
         self.clock.advance(dt);
         self.engine.time = self.clock.time();
         observer.step(&Frame::new(self.engine.time, dt, &self.engine));

@@ -237,6 +237,12 @@ pub trait ContactLaw: Sync {
         true
     }
 
+    /// The impact speed in m/s that the law is set up for, above which its answers are worth less. An error
+    /// names a particle that is faster. Infinite unless stated.
+    fn design_speed(&self) -> f64 {
+        f64::INFINITY
+    }
+
     /// The longest time step in s that two bodies bear under this law.
     fn time_step_limit(&self, _coefficients: &Self::Coefficients) -> f64 {
         f64::INFINITY
@@ -330,6 +336,10 @@ macro_rules! forward_law {
 
             fn reach(&self, time_step: f64) -> f64 {
                 (**self).reach(time_step)
+            }
+
+            fn design_speed(&self) -> f64 {
+                (**self).design_speed()
             }
 
             fn time_step_limit(&self, coefficients: &Self::Coefficients) -> f64 {

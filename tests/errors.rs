@@ -10,6 +10,8 @@
 
 #[path = "errors/builders.rs"]
 mod builders;
+#[path = "errors/causes.rs"]
+mod causes;
 #[path = "errors/laws.rs"]
 mod laws;
 #[path = "errors/parts.rs"]

@@ -4,6 +4,7 @@
 use glam::DVec3;
 
 use super::block::{Block, Memories, Place, block_size, room_for};
+use super::cause::Begin;
 use super::error::StepError;
 use super::impulse::Joints;
 use super::particles::Particles;
@@ -117,6 +118,8 @@ pub(crate) struct Engine<C, L: ContactLaw, M, D> {
     /// Forces of the particles on each container.
     pub(crate) loads: Vec<DVec3>,
     pub(crate) time: f64,
+    /// How the step began.
+    pub(crate) begin: Begin,
     pub(crate) detections: u64,
     /// Steps since a large bed was sorted.
     pub(crate) since_sort: u32,
@@ -144,6 +147,14 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let degrees = self.mount.degrees();
         let coordinates = &self.mount_state.position[..degrees];
         let velocities = &self.mount_state.velocity[..degrees];
+        let mut both = coordinates.iter().zip(velocities);
+        if let Some(coordinate) = both.position(|(x, v)| !(x.is_finite() && v.is_finite())) {
+            return Err(StepError::Mount {
+                coordinate,
+                value: coordinates[coordinate],
+                rate: velocities[coordinate],
+            });
+        }
         for (cavity, room) in self.world.rooms.iter_mut().enumerate() {
             let Motion { position, velocity } =
                 self.mount.motion(time, coordinates, velocities, cavity);
@@ -272,6 +283,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 super::Partner::Particle(_) => 0,
             },
             position: self.particles.position.get(slot) - room.motion.position,
+            cause: self.cause(),
         }
     }
 
@@ -286,6 +298,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             other,
             overlap: block.largest_overlap,
             limit: self.overlap_limit,
+            cause: self.cause(),
         }
     }
 

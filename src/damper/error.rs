@@ -2,6 +2,7 @@ use std::fmt;
 
 use glam::DVec3;
 
+use super::Cause;
 use crate::detector::DetectorError;
 use crate::error::ValueError;
 use crate::excitation::Jump;
@@ -201,7 +202,7 @@ pub enum StepError {
         acceleration: DVec3,
     },
     /// The centre of a particle has passed a wall.
-    #[error("particle {particle} has left the cavity through wall {wall}, at {position}")]
+    #[error("particle {particle} has left the cavity through wall {wall}, at {position}: {cause}")]
     Escaped {
         /// Number of the particle.
         particle: usize,
@@ -209,9 +210,11 @@ pub enum StepError {
         wall: u32,
         /// Its position in the container's frame in m.
         position: DVec3,
+        /// What may lie behind it.
+        cause: Cause,
     },
     /// Two bodies overlap by more than the stated bound.
-    #[error("particle {particle} overlaps {other} by {overlap} m; the limit is {limit} m")]
+    #[error("particle {particle} overlaps {other} by {overlap} m; the limit is {limit} m: {cause}")]
     Overlap {
         /// Number of the particle.
         particle: usize,
@@ -221,6 +224,45 @@ pub enum StepError {
         overlap: f64,
         /// The bound in m.
         limit: f64,
+        /// What may lie behind it.
+        cause: Cause,
+    },
+    /// A container has left the course with which it began the step by so much that its walls may have
+    /// passed over particles.
+    #[error(
+        "the container of cavity {cavity} is {off} m off the course that it began the step with, {limit} m at most can be followed: {cause}"
+    )]
+    Jump {
+        /// Number of the cavity.
+        cavity: usize,
+        /// How far it is off in m.
+        off: f64,
+        /// The bound in m: half the radius of the smallest particle.
+        limit: f64,
+        /// What lies behind it.
+        cause: Cause,
+    },
+    /// The velocity of a prescribed motion is not the rate of its position.
+    #[error(
+        "the velocity of the container of cavity {cavity} is not the rate of its position: {velocity} against {rate} m/s"
+    )]
+    NotItsRate {
+        /// Number of the cavity.
+        cavity: usize,
+        /// Its velocity in m/s, on the mean of the step.
+        velocity: DVec3,
+        /// Way over time in the step, m/s.
+        rate: DVec3,
+    },
+    /// The mount's coordinates are no longer finite.
+    #[error("the mount runs away: coordinate {coordinate} is at {value} with a rate of {rate}")]
+    Mount {
+        /// Number of the coordinate.
+        coordinate: usize,
+        /// Its value.
+        value: f64,
+        /// Its rate.
+        rate: f64,
     },
     /// The container's motion is no longer finite.
     #[error("the motion of the container of cavity {cavity} is not finite: {position}, {velocity}")]

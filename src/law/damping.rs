@@ -67,8 +67,10 @@ impl Damping {
     /// # }
     /// ```
     pub fn number(self, restitution: f64, ending: Ending) -> Result<f64, ValueError> {
-        let restitution = Bound::Within(Self::LEAST_RESTITUTION, 1.0)
-            .check("restitution under a strict contact law", restitution)?;
+        let restitution = Bound::Within(Self::LEAST_RESTITUTION, 1.0).check(
+            "restitution under a strict contact law (RestitutionImpulse takes any)",
+            restitution,
+        )?;
         Ok(match self {
             Self::Viscoelastic => viscoelastic::number(restitution, ending),
             Self::Tsuji => tsuji::number(restitution, ending),

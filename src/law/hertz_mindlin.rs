@@ -233,6 +233,10 @@ impl ContactLaw for HertzMindlin {
         NormalForce::stored(&coefficients.normal, contact, stretched)
     }
 
+    fn design_speed(&self) -> f64 {
+        self.normal.reference_speed()
+    }
+
     fn time_step_limit(&self, coefficients: &Coefficients) -> f64 {
         coefficients.longest
     }

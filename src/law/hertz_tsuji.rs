@@ -146,6 +146,10 @@ impl ContactLaw for HertzTsuji {
         NormalForce::stored(&coefficients.normal, contact, 0.0)
     }
 
+    fn design_speed(&self) -> f64 {
+        self.normal.reference_speed()
+    }
+
     fn time_step_limit(&self, coefficients: &Coefficients) -> f64 {
         coefficients.longest
     }

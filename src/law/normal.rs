@@ -147,6 +147,11 @@ impl NormalForce {
         )?)
     }
 
+    /// Impact speed (m/s) at which restitution is met.
+    pub(super) const fn reference_speed(&self) -> f64 {
+        self.reference_speed
+    }
+
     /// The elastic impact of two bodies at the reference speed.
     pub(super) fn reference(&self, bodies: &Bodies) -> Result<ElasticImpact, LawError> {
         self.impact(bodies, self.reference_speed)

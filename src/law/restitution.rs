@@ -174,6 +174,10 @@ impl ContactLaw for RestitutionImpulse {
         }
     }
 
+    fn design_speed(&self) -> f64 {
+        self.reference_speed
+    }
+
     fn time_step_limit(&self, own: &Self::Coefficients) -> f64 {
         TRAVEL * own.smaller_radius() / self.reference_speed
     }

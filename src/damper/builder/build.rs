@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::Builder;
 use crate::cavity::Cavity;
 use crate::damper::block::{BLOCK, memories, room_for};
+use crate::damper::cause::Begin;
 use crate::damper::clock::Clock;
 use crate::damper::coefficients::Coefficients;
 use crate::damper::engine::{Engine, MountState, Scratch};
@@ -81,6 +82,7 @@ where
                 time_step,
             },
             time: self.start_time,
+            begin: Begin::default(),
             detections: 0,
             since_sort: 0,
             overlap_limit: self.overlap_limit * smallest,
