@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3, dvec3};
 use particle_damper::{
     Bodies, Bound, Cause, Contact, ContactForce, ContactLaw, Cuboid, Damper, Driven, Evaluation,
     Filling, Frame, HertzMindlin, HertzTsuji, LawError, LinkedCells, Material, Motion, Mount,
-    Observer, Particle, Partner, RestitutionImpulse, Skin, StepError,
+    Observer, Particle, Partner, RestitutionImpulse, SingleDof, Skin, Slot, StepError,
 };
 
 type Hosted<L> = Damper<Cuboid, L, Driven, Skin<LinkedCells>>;
@@ -372,6 +372,83 @@ fn a_time_that_has_passed_is_refused() {
             error
                 .to_string()
                 .starts_with("time (s) must be finite and above 0.0001")
+        );
+    }
+}
+
+/// Largest displacement of a mass on a spring within a second, bed of `grains` solved together with it.
+fn swing_together(mass: f64, stiffness: f64, grains: &[Particle]) -> f64 {
+    let mount = SingleDof::new(mass, 0.0, stiffness).unwrap();
+    let mut damper = Damper::builder(Slot::paper(), RestitutionImpulse::new(Material::acrylic()))
+        .mount(mount.released_from(0.0, 0.4).unwrap())
+        .particles(grains.iter().copied())
+        .time_step(1e-4)
+        .build()
+        .unwrap();
+    let mut top = 0.0_f64;
+    while damper.time() < 1.0 {
+        damper.step().unwrap();
+        top = top.max(damper.coordinates()[0].abs());
+    }
+    top
+}
+
+/// A host of a twentieth of its bed's mass finds the impulse by relaxation (the guide's iteration), and
+/// swings as the same structure does when it is solved together with the bed.
+#[test]
+fn a_host_far_lighter_than_its_bed_converges_by_relaxation() {
+    let filling = Filling::new(1).with(30, Particle::new(3e-3, 0.2e-3).unwrap());
+    let grains = filling.fill(&Slot::paper()).unwrap();
+    let bed = 30.0 * 0.2e-3;
+    for ratio in [0.1, 1.0, 5.0, 20.0] {
+        let mass = bed / ratio;
+        let stiffness = 1400.0 * (mass + bed);
+        let law = RestitutionImpulse::new(Material::acrylic());
+        let mut damper = Damper::builder(Slot::paper(), law)
+            .particles(grains.iter().copied())
+            .time_step(1e-4)
+            .build()
+            .unwrap();
+        let (mut x, mut v, mut impulse, mut top) = (0.0, 0.4, 0.0, 0.0_f64);
+        let mut interval = 1e-3_f64;
+        while damper.time() < 1.0 {
+            let before = damper.snapshot();
+            let (mut relaxation, mut last) = (1.0 / (1.0 + ratio), None);
+            let converged = (0..20).any(|_| {
+                let q = 0.25 * stiffness * interval * interval / mass;
+                let gain = (impulse - stiffness * x * interval) / mass;
+                let end_v = (v * (1.0 - q) + gain) / (1.0 + q);
+                let end_x = x + 0.5 * interval * (v + end_v);
+                let end = Motion {
+                    position: DVec3::Y * end_x,
+                    velocity: DVec3::Y * end_v,
+                };
+                let error = damper.drive(end, interval).unwrap().impulse.y - impulse;
+                if error.abs() < 1e-6 * (mass + bed) {
+                    (x, v) = (end_x, end_v);
+                    return true;
+                }
+                damper.restore(&before).unwrap();
+                if let Some(last) = last {
+                    let aitken: f64 = relaxation * last / (last - error);
+                    relaxation = aitken.clamp(0.5 / (1.0 + ratio), 1.0);
+                }
+                last = Some(error);
+                impulse += relaxation * error;
+                false
+            });
+            if converged {
+                top = top.max(x.abs());
+                interval = (2.0 * interval).min(1e-3);
+            } else {
+                interval *= 0.5;
+                assert!(interval > 1e-5, "m/M = {ratio} at {} s", damper.time());
+            }
+        }
+        let together = swing_together(mass, stiffness, &grains);
+        assert!(
+            (top / together - 1.0).abs() < 0.03,
+            "m/M = {ratio}: {top} m, {together} m together"
         );
     }
 }
