@@ -21,6 +21,7 @@ mod chunk;
 mod clock;
 mod coefficients;
 mod detection;
+mod digest;
 mod drive;
 mod engine;
 mod error;

@@ -1,5 +1,7 @@
 //! Simulated time.
 
+use super::digest::Digest;
+
 /// What the times of a host may be off by, s: those of an interval that ends within 1e7 s of the origin
 /// are each rounded by 0.93e-9 s.
 const ROUNDING: f64 = 2e-9;
@@ -54,6 +56,12 @@ impl Clock {
             && self.time().is_finite()
             && self.step >= 0.0
             && self.ahead.abs() <= 1.0
+    }
+
+    /// Adds all that it shows.
+    pub(crate) fn add_to(&self, digest: &mut Digest) {
+        digest.numbers(&[self.epoch, self.step, self.ahead]);
+        digest.word(self.steps);
     }
 
     pub(crate) const fn advance(&mut self, step: f64) {

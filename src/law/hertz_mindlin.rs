@@ -233,6 +233,14 @@ impl ContactLaw for HertzMindlin {
         NormalForce::stored(&coefficients.normal, contact, stretched)
     }
 
+    fn tell_memory(&self, memory: &TangentialSpring, tell: &mut dyn FnMut(f64)) {
+        let [load, slip] = [memory.load, memory.slip].map(|vector| vector.to_array());
+        load.into_iter()
+            .chain(slip)
+            .chain([memory.root])
+            .for_each(tell);
+    }
+
     fn design_speed(&self) -> f64 {
         self.normal.reference_speed()
     }

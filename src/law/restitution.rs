@@ -174,6 +174,10 @@ impl ContactLaw for RestitutionImpulse {
         }
     }
 
+    fn tell_memory(&self, memory: &RestingForce, tell: &mut dyn FnMut(f64)) {
+        memory.tell(tell);
+    }
+
     fn design_speed(&self) -> f64 {
         self.reference_speed
     }

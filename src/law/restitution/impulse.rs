@@ -74,6 +74,15 @@ pub struct RestingForce {
     bearing: f64,
 }
 
+impl RestingForce {
+    /// Tells every number.
+    pub(super) fn tell(&self, tell: &mut dyn FnMut(f64)) {
+        let vectors = [self.tangential, self.couple].map(|vector| vector.to_array());
+        let numbers = [self.normal, self.borne, self.weight, self.bearing];
+        vectors.into_iter().flatten().chain(numbers).for_each(tell);
+    }
+}
+
 /// Inverse moment of inertia of a solid sphere, 1/(kg m^2); zero for a wall.
 fn inverse_inertia(radius: f64, mass: f64) -> f64 {
     2.5 / (mass * radius * radius)
