@@ -88,7 +88,8 @@
 //! # Goals, in this order
 //!
 //! 1. Right: theory and published tests are met to the digits they give (`tests/validation`).
-//! 2. The same bits from run to run, whichever detector, however many threads, after a restore.
+//! 2. The same bits from run to run, whichever detector, however many threads, after a restore, and on
+//!    every platform whose `f64` is that of IEEE 754.
 //! 3. Fast.
 //! 4. Pleasant to embed. Bad input is refused when a damper is built; the library never panics,
 //!    prints, reads a clock or starts a thread of its own.
@@ -101,6 +102,8 @@
     clippy::print_stdout,
     clippy::print_stderr
 )]
+// Bits of its own, not of the platform.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod cavity;
 mod contact;

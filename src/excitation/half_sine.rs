@@ -45,8 +45,8 @@ impl Signal for HalfSine {
         }
         let rate = PI / self.duration;
         [
-            self.peak * (PI * s).sin(),
-            self.peak * rate * (PI * s).cos(),
+            self.peak * libm::sin(PI * s),
+            self.peak * rate * libm::cos(PI * s),
         ]
     }
 

@@ -39,14 +39,14 @@ impl Signal for Harmonic {
     fn at(&self, time: f64) -> [f64; 2] {
         let angle = self.angular_frequency * time + self.phase;
         [
-            self.amplitude * angle.sin(),
-            self.amplitude * self.angular_frequency * angle.cos(),
+            self.amplitude * libm::sin(angle),
+            self.amplitude * self.angular_frequency * libm::cos(angle),
         ]
     }
 
     #[inline]
     fn value(&self, time: f64) -> f64 {
-        self.amplitude * (self.angular_frequency * time + self.phase).sin()
+        self.amplitude * libm::sin(self.angular_frequency * time + self.phase)
     }
 
     fn shortest_feature(&self) -> f64 {

@@ -73,7 +73,9 @@
 //!
 //! What the crate itself is checked against, with sources and tolerances: `tests/validation/`. Which
 //! bits stay the same: same inputs, same bits, whatever the detector, the number of threads, and
-//! whether a run was interrupted by a [`Snapshot`](crate::Snapshot).
+//! whether a run was interrupted by a [`Snapshot`](crate::Snapshot); and on every platform whose `f64` is
+//! that of IEEE 754 (not 32-bit x86 without SSE2), as the sines and powers come from the `libm` crate and
+//! nothing is fused. Laws, excitations and hosts of one's own have to do likewise.
 //!
 //! # What is refused, and what is not
 //! A step that a law, a mount or an excitation cannot bear is refused when a damper is built, and so is a

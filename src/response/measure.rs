@@ -26,7 +26,7 @@ struct Sums {
 impl Sums {
     /// Takes up the displacement at the angle (rad) of the force.
     fn add(&mut self, displacement: f64, angle: f64) {
-        let (sine, cosine) = angle.sin_cos();
+        let (sine, cosine) = libm::sincos(angle);
         self.samples += 1;
         self.sum += displacement;
         self.squares += displacement * displacement;
@@ -124,8 +124,8 @@ where
             rms_zero: square.sqrt() / deflection,
             rms_mean: (square - mean * mean).max(0.0).sqrt() / deflection,
             mean: mean / deflection,
-            first_harmonic: sine.hypot(cosine) / deflection,
-            phase_lag: (-cosine).atan2(sine),
+            first_harmonic: libm::hypot(sine, cosine) / deflection,
+            phase_lag: libm::atan2(-cosine, sine),
             max_overlap,
             outside,
         })
