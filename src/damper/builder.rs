@@ -169,6 +169,11 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
     }
 
     /// Largest overlap at the start, as a fraction of the smallest radius; 0.05 unless set.
+    ///
+    /// This is the one rule for what may be squeezed: every contact at the start, of two particles or of a
+    /// particle and a wall, by so much and no more. A particle may thus be larger than its cavity is wide by
+    /// twice that. (A [`Filling`](crate::Filling) squeezes by a millionth of a radius at most, to let an exact
+    /// fit stand.)
     pub const fn initial_overlap(mut self, fraction: f64) -> Self {
         self.initial_overlap = fraction;
         self

@@ -156,6 +156,8 @@ where
     }
 
     fn check_particles(&self) -> Result<(), BuildError> {
+        let radii = self.particles.iter().map(|particle| particle.radius);
+        let squeeze = self.initial_overlap * radii.fold(f64::INFINITY, f64::min);
         for (number, particle) in self.particles.iter().enumerate() {
             check_particle(particle).map_err(|error| BuildError::Particle {
                 particle: number,
@@ -187,7 +189,8 @@ where
             } else {
                 extent.min_element()
             };
-            if 2.0 * particle.radius > room {
+            // Pressed into two opposite walls at once.
+            if 2.0 * particle.radius > room + 2.0 * squeeze {
                 return Err(BuildError::TooLarge {
                     particle: number,
                     diameter: 2.0 * particle.radius,
