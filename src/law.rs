@@ -17,6 +17,7 @@ mod hertz;
 mod hertz_mindlin;
 mod hertz_tsuji;
 mod normal;
+mod turn;
 
 pub use damping::{Damping, Ending};
 pub use friction::Friction;

@@ -167,7 +167,7 @@ mod tests {
             .unwrap_err();
         assert_eq!(
             refused.to_string(),
-            "restitution under a strict contact law must lie in [0.001, 1], not 0"
+            "restitution under a strict contact law (RestitutionImpulse takes any) must lie in [0.001, 1], not 0"
         );
         assert!(
             Damping::Viscoelastic

@@ -2,6 +2,7 @@ use glam::DVec3;
 
 use super::friction::{PART_PER_STEP, Rolling, SLIP_MOBILITY, share};
 use super::normal::{Normal, NormalCoefficients, NormalForce, strict_law};
+use super::turn::turned;
 use super::{ContactLaw, LawError, at_least, at_most};
 use crate::contact::{Bodies, Contact, ContactForce, Edge, Stored};
 use crate::error::{Bound, ValueError};
@@ -110,8 +111,7 @@ impl HertzMindlin {
         let kept = at_most(normal.root / memory.root, 1.0);
         // The trapezoidal rule. A contact that begins has slipped for half of the step on average.
         let gain = coefficients.shear * normal.root * (0.5 * dt);
-        let before = memory.load * kept + (memory.slip + slip) * gain;
-        let load = before - before.dot(contact.normal) * contact.normal;
+        let load = turned(memory.load * kept + memory.slip * gain, contact) + slip * gain;
 
         let bearable = coefficients.stop * (1.0 / dt);
         let damping = slip * at_most(self.damping_ratio * normal.resistance, bearable);
