@@ -27,6 +27,7 @@ mod engine;
 mod error;
 mod impulse;
 mod particles;
+mod record;
 mod scene;
 mod setup;
 mod snapshot;
@@ -38,6 +39,7 @@ mod view;
 pub use builder::Builder;
 pub use cause::Cause;
 pub use error::{BuildError, StepBound, StepError};
+pub use record::{Recorded, Recording, ReplayError};
 pub use scene::WallLoad;
 pub use snapshot::{RestoreError, Snapshot};
 

@@ -128,8 +128,8 @@ pub use glam;
 pub use cavity::{Cavity, Cuboid, Slot};
 pub use contact::{Bodies, Body, Contact, ContactForce, Edge, Stored};
 pub use damper::{
-    BuildError, Builder, Cause, Damper, Partner, Reaction, RestoreError, Snapshot, StepBound,
-    StepError, WallLoad,
+    BuildError, Builder, Cause, Damper, Partner, Reaction, Recorded, Recording, ReplayError,
+    RestoreError, Snapshot, StepBound, StepError, WallLoad,
 };
 pub use detector::{
     AllPairs, Bed, CellGrid, Counted, Detector, DetectorError, LinkedCells, Neighbourhood, Pairs,

@@ -8,8 +8,8 @@ use glam::DVec3;
 use particle_damper::excitation::Harmonic;
 use particle_damper::{
     Builder, CellGrid, ContactLaw, Damper, Detector, Filling, HertzMindlin, Integrator,
-    Interaction, Material, Particle, RestitutionImpulse, RestoreError, RungeKutta4, SingleDof,
-    Slot, Snapshot, TangentialSpring,
+    Interaction, Material, Motion, Particle, Recorded, Recording, ReplayError, RestitutionImpulse,
+    RestoreError, RungeKutta4, SingleDof, Slot, Snapshot, TangentialSpring,
 };
 use serde_json::{Value, json};
 
@@ -316,4 +316,86 @@ fn a_settled_bed_starts_a_run_at_another_frequency() {
     let mut damper = builder(law).mount(faster).build().unwrap();
     damper.restore(&snapshot).unwrap();
     damper.step().unwrap();
+}
+
+/// A session with a step taken back, a mistake and a way out of it, written and read as one file.
+#[test]
+fn a_session_of_a_host_is_replayed_from_one_file() {
+    fn session<L: ContactLaw + Clone>(law: &L)
+    where
+        L::Memory: serde::Serialize + serde::de::DeserializeOwned,
+    {
+        let build = || {
+            Damper::builder(Slot::paper(), law.clone())
+                .particles(bed())
+                .time_step(1e-5)
+                .build()
+                .unwrap()
+        };
+        let at = |time: f64| {
+            let (sine, cosine) = (40.0 * time).sin_cos();
+            Motion {
+                position: DVec3::Y * (5e-3 * sine),
+                velocity: DVec3::Y * (0.2 * cosine),
+            }
+        };
+        let mut host = Recorded::new(build(), 7);
+        let mut time = 0.0;
+        for step in 0..180 {
+            let before = host.snapshot();
+            // A guess that is taken back, every third time.
+            if step % 3 == 0 {
+                host.drive(at(time + 2e-3), 1e-3).unwrap();
+                host.restore(&before).unwrap();
+            }
+            time += 1e-3;
+            host.drive_to(at(time), time).unwrap();
+            if step == 40 {
+                let good = host.snapshot();
+                let far = Motion {
+                    position: DVec3::Y,
+                    velocity: DVec3::ZERO,
+                };
+                assert!((0..2).any(|_| host.drive(far, 1e-5).is_err()));
+                host.restore(&good).unwrap();
+            }
+        }
+        assert!(host.recording().drives() >= 241);
+        let file = postcard::to_stdvec(host.recording()).unwrap();
+        let recording: Recording<L::Memory> = postcard::from_bytes(&file).unwrap();
+        let mut again = build();
+        assert_eq!(recording.replay(&mut again), Ok(None));
+        assert_eq!(again.snapshot(), host.damper().snapshot());
+
+        // Another input in the midst of it parts the bits there.
+        let mut value = serde_json::to_value(&recording).unwrap();
+        let events = value["events"].as_array_mut().unwrap();
+        let mut drives = events
+            .iter_mut()
+            .filter(|event| event.get("Drive").is_some());
+        let end = &mut drives.nth(199).unwrap()["Drive"]["end"]["velocity"][1];
+        *end = json!(end.as_f64().unwrap() + 1e-6);
+        let other: Recording<L::Memory> = serde_json::from_value(value).unwrap();
+        let error = other.replay(&mut build()).unwrap_err();
+        assert!(
+            matches!(
+                error,
+                ReplayError::Parted {
+                    drive: 200..=203,
+                    ..
+                }
+            ),
+            "{error}"
+        );
+
+        // So does another law, which the snapshot does not fit.
+        let slower = Damper::builder(Slot::paper(), law.clone())
+            .particles(bed())
+            .time_step(9e-6)
+            .build();
+        let error = recording.replay(&mut slower.unwrap()).unwrap_err();
+        assert!(matches!(error, ReplayError::Restore { drives: 0, .. }));
+    }
+    session(&HertzMindlin::new(Material::acrylic()));
+    session(&RestitutionImpulse::new(Material::acrylic()));
 }

@@ -140,6 +140,11 @@ impl<Memory> Snapshot<Memory> {
         self.clock.time()
     }
 
+    /// The digest that it carries.
+    pub(crate) const fn own_digest(&self) -> Digest {
+        self.digest
+    }
+
     /// The digest of everything, contacts as `law` tells what they remember.
     fn digest<L: ContactLaw<Memory = Memory>>(&self, law: &L) -> Digest {
         let mut digest = Digest::default();

@@ -101,6 +101,9 @@
 //! `examples/ode-host` does so under a solver that chooses its own steps, `examples/rapier-host` needs
 //! no way back. After an error ([`StepError`](crate::StepError)) a snapshot is the way on, too.
 //!
+//! A session that went wrong fits in one file: drive a [`Recorded`](crate::Recorded) damper, and write its
+//! [`Recording`](crate::Recording). It is played again with the bits that it had, steps taken back included.
+//!
 //! # How long an interval
 //! The host moves through an interval h with the impulse of the one before: the reaction is late. The
 //! damper resolves impacts by itself, so what counts is how far the host's own motion comes in h.
