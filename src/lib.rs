@@ -80,7 +80,7 @@
 //!
 //! | feature | adds |
 //! |---|---|
-//! | `serde` | [`Snapshot`]s can be written and read |
+//! | `serde` | [`Snapshot`]s and [`Recording`]s can be written and read |
 //! | `rayon` | response curves and large beds on all cores |
 //!
 //! Neither is on by default, and neither changes a bit of any result.
