@@ -7,9 +7,10 @@ use std::process::Command;
 use glam::DVec3;
 use particle_damper::excitation::Harmonic;
 use particle_damper::{
-    Builder, CellGrid, ContactLaw, Damper, Detector, Filling, HertzMindlin, Integrator,
-    Interaction, Material, Motion, Particle, Recorded, Recording, ReplayError, RestitutionImpulse,
-    RestoreError, RungeKutta4, SingleDof, Slot, Snapshot, TangentialSpring,
+    Bodies, Builder, CellGrid, Contact, ContactForce, ContactLaw, Damper, Detector, Filling,
+    HertzMindlin, Integrator, Interaction, LawError, Material, Motion, Particle, Recorded,
+    Recording, ReplayError, RestitutionImpulse, RestoreError, RungeKutta4, SingleDof, Slot,
+    Snapshot, TangentialSpring,
 };
 use serde_json::{Value, json};
 
@@ -398,4 +399,33 @@ fn a_session_of_a_host_is_replayed_from_one_file() {
     }
     session(&HertzMindlin::new(Material::acrylic()));
     session(&RestitutionImpulse::new(Material::acrylic()));
+}
+
+/// Laws that print alike were taken for the same.
+#[test]
+fn laws_are_told_apart_by_what_they_do() {
+    struct Spring {
+        stiffness: f64,
+    }
+    impl ContactLaw for Spring {
+        type Coefficients = ();
+        type Memory = ();
+
+        fn coefficients(&self, _: &Bodies) -> Result<(), LawError> {
+            Ok(())
+        }
+        fn force(&self, (): &(), contact: &Contact, (): &()) -> ContactForce {
+            ContactForce::new(self.stiffness * contact.overlap, DVec3::ZERO)
+        }
+    }
+    let damper = |stiffness| builder(Spring { stiffness }).build().unwrap();
+    let snapshot = damper(1000.0).snapshot();
+    assert_eq!(damper(1000.0).restore(&snapshot), Ok(()));
+    let error = damper(1000.0_f64.next_up()).restore(&snapshot).unwrap_err();
+    assert_eq!(
+        error,
+        RestoreError::OtherSetup {
+            quantity: "contact law"
+        }
+    );
 }
