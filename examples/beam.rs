@@ -91,6 +91,10 @@ impl Mount for Beam {
             a[n] -= tip * inertia;
         }
     }
+
+    fn highest_frequency(&self) -> f64 {
+        self.omega[MODES - 1] / std::f64::consts::TAU
+    }
 }
 
 /// The displacement of the tip (m) over time (s), with `units` cavities of loose grains.

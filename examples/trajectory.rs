@@ -12,15 +12,14 @@ mod output;
 
 use std::error::Error;
 use std::f64::consts::TAU;
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::{
     Cuboid, Damper, Filling, Frame, Material, Motion, Observer, Particle, Prescribed,
     RestitutionImpulse,
-};
-use vtkio::model::{
-    Attribute, Attributes, ByteOrder, DataSet, PolyDataPiece, Version, VertexNumbers, Vtk,
 };
 
 type Failure = Box<dyn Error + Send + Sync>;
@@ -42,40 +41,40 @@ impl Observer for Recorder {
     }
 }
 
-fn columns<'a>(bed: &'a [Particle], of: impl Fn(&Particle) -> DVec3 + 'a) -> Vec<f64> {
-    bed.iter()
-        .flat_map(|particle| of(particle).to_array())
-        .collect()
+/// One vector a line.
+fn write_vectors(
+    file: &mut impl Write,
+    bed: &[Particle],
+    of: impl Fn(&Particle) -> DVec3,
+) -> io::Result<()> {
+    bed.iter().try_for_each(|particle| {
+        let [x, y, z] = of(particle).to_array();
+        writeln!(file, "{x:e} {y:e} {z:e}")
+    })
 }
 
-/// One bed as points with radius, velocity and spin.
-fn write_vtk(path: &Path, time: f64, bed: &[Particle]) -> Result<(), Failure> {
-    let radii: Vec<f64> = bed.iter().map(|particle| particle.radius).collect();
-    let points = PolyDataPiece {
-        points: columns(bed, |particle| particle.position).into(),
-        verts: Some(VertexNumbers::Legacy {
-            num_cells: bed.len() as u32,
-            vertices: (0..bed.len() as u32).flat_map(|n| [1, n]).collect(),
-        }),
-        data: Attributes {
-            point: vec![
-                Attribute::scalars("radius", 1).with_data(radii),
-                Attribute::vectors("velocity").with_data(columns(bed, |p| p.velocity)),
-                Attribute::vectors("spin").with_data(columns(bed, |p| p.spin)),
-            ],
-            cell: Vec::new(),
-        },
-        ..PolyDataPiece::default()
-    };
-    let vtk = Vtk {
-        version: Version::Legacy { major: 4, minor: 2 },
-        title: format!("particles at {time:.4} s"),
-        byte_order: ByteOrder::BigEndian,
-        data: DataSet::inline(points),
-        file_path: None,
-    };
-    vtk.export(path)
-        .map_err(|error| format!("{error:?}").into())
+/// One bed as points with radius, velocity and spin, in the legacy format of VTK (The VTK User's Guide,
+/// "VTK File Formats").
+fn write_vtk(path: &Path, time: f64, bed: &[Particle]) -> io::Result<()> {
+    let count = bed.len();
+    let mut file = BufWriter::new(File::create(path)?);
+    writeln!(file, "# vtk DataFile Version 3.0\nparticles at {time:.4} s")?;
+    writeln!(file, "ASCII\nDATASET POLYDATA\nPOINTS {count} double")?;
+    write_vectors(&mut file, bed, |particle| particle.position)?;
+    writeln!(file, "VERTICES {count} {}", 2 * count)?;
+    for number in 0..count {
+        writeln!(file, "1 {number}")?;
+    }
+    writeln!(file, "POINT_DATA {count}")?;
+    writeln!(file, "SCALARS radius double 1\nLOOKUP_TABLE default")?;
+    for particle in bed {
+        writeln!(file, "{:e}", particle.radius)?;
+    }
+    writeln!(file, "VECTORS velocity double")?;
+    write_vectors(&mut file, bed, |particle| particle.velocity)?;
+    writeln!(file, "VECTORS spin double")?;
+    write_vectors(&mut file, bed, |particle| particle.spin)?;
+    file.flush()
 }
 
 fn main() -> Result<(), Failure> {

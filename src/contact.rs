@@ -180,6 +180,20 @@ pub struct HeldForce {
     pub gravity: f64,
 }
 
+impl HeldForce {
+    /// Tells every number.
+    pub(crate) fn tell(&self, tell: &mut dyn FnMut(f64)) {
+        let ContactForce {
+            normal,
+            tangential,
+            couple,
+        } = self.force;
+        let vectors = [tangential, couple].map(|vector| vector.to_array());
+        let numbers = [normal, self.load, self.gravity];
+        vectors.into_iter().flatten().chain(numbers).for_each(tell);
+    }
+}
+
 /// What a contact holds by elasticity, and can give back.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]

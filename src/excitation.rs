@@ -5,6 +5,7 @@
 //! | [`Harmonic`] | a sine |
 //! | [`Chirp`] | a sine that sweeps through a band |
 //! | [`BandLimitedNoise`] | random, of a given band and RMS |
+//! | [`HalfSine`] | a shock pulse |
 //! | [`Sampled`] | a measured record |
 //! | any closure `Fn(f64) -> [f64; 2]` | its own |
 //!
@@ -12,16 +13,20 @@
 //! the displacement of the base in m.
 
 mod chirp;
+mod feature;
+mod half_sine;
 mod harmonic;
 mod noise;
 mod sampled;
 mod signal;
 
 pub use chirp::Chirp;
+pub use feature::Featured;
+pub use half_sine::HalfSine;
 pub use harmonic::Harmonic;
 pub use noise::BandLimitedNoise;
-pub use sampled::{Sampled, SampledError};
-pub use signal::Signal;
+pub use sampled::{Beyond, Sampled, SampledError};
+pub use signal::{Jump, Signal};
 
 /// What drives an oscillator: an external force as a function of time, which may depend on the
 /// oscillator's support (base excitation).
@@ -46,10 +51,24 @@ pub use signal::Signal;
 /// 1. [`force`](Self::force) is a function of its arguments alone: an integrator asks for any time,
 ///    in any order.
 /// 2. It is positive along the axis of the oscillator.
+/// 3. [`shortest_feature`](Self::shortest_feature) is what a damper's steps have to resolve. A closure
+///    states none and is taken on trust; [`Featured`] states one for it.
 pub trait Excitation {
     /// Force on the mass in N at `time` (s). `damping` (N s/m) and `stiffness` (N/m) are those of the
     /// support.
     fn force(&self, time: f64, damping: f64, stiffness: f64) -> f64;
+
+    /// How long the shortest rise and fall of the force takes, s: of a sine half a period, of a pulse its
+    /// length. A step is refused if ten do not fit in: what the force gives is then good to 1 % (of a
+    /// half-sine pulse its impulse, of a sine the response to it). Infinite unless stated.
+    fn shortest_feature(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    /// A jump of the base that nobody asked for by name; a damper refuses it. None unless stated.
+    fn jump(&self) -> Option<Jump> {
+        None
+    }
 }
 
 impl Excitation for () {
@@ -71,12 +90,28 @@ impl<A: Excitation, B: Excitation> Excitation for (A, B) {
     fn force(&self, time: f64, damping: f64, stiffness: f64) -> f64 {
         self.0.force(time, damping, stiffness) + self.1.force(time, damping, stiffness)
     }
+
+    fn shortest_feature(&self) -> f64 {
+        self.0.shortest_feature().min(self.1.shortest_feature())
+    }
+
+    fn jump(&self) -> Option<Jump> {
+        self.0.jump().or_else(|| self.1.jump())
+    }
 }
 
 /// An excitation chosen at run time.
 impl Excitation for Box<dyn Excitation + Send + Sync> {
     fn force(&self, time: f64, damping: f64, stiffness: f64) -> f64 {
         (**self).force(time, damping, stiffness)
+    }
+
+    fn shortest_feature(&self) -> f64 {
+        (**self).shortest_feature()
+    }
+
+    fn jump(&self) -> Option<Jump> {
+        (**self).jump()
     }
 }
 
@@ -88,11 +123,15 @@ macro_rules! force_in_newtons {
             fn force(&self, time: f64, _damping: f64, _stiffness: f64) -> f64 {
                 self.value(time)
             }
+
+            fn shortest_feature(&self) -> f64 {
+                Signal::shortest_feature(self)
+            }
         }
     )+};
 }
 
-force_in_newtons!(Harmonic, Chirp, BandLimitedNoise, Sampled);
+force_in_newtons!(Harmonic, Chirp, BandLimitedNoise, HalfSine, Sampled);
 
 /// Base excitation: spring and dashpot hang on a base that is displaced by the signal Y (m), which
 /// drives the mass with K Y + C Y' (the paper's Sec. 2). The oscillator's coordinate stays the
@@ -101,6 +140,10 @@ force_in_newtons!(Harmonic, Chirp, BandLimitedNoise, Sampled);
 /// A base known by its *acceleration* (an earthquake record) is integrated first,
 /// [`Sampled::integral`]. The usual shortcut, a force -M Y" on the mass with the coordinate counted
 /// from the base, is not offered: the particles would not feel it.
+///
+/// A base that jumps, in place or in speed, would strike the structure without a trace in the equations:
+/// a damper refuses it, unless it is asked for by name ([`Sampled::beyond`]). A closure is taken on
+/// trust.
 ///
 /// ```
 /// use particle_damper::excitation::{Base, Excitation};
@@ -117,6 +160,14 @@ impl<S: Signal> Excitation for Base<S> {
     fn force(&self, time: f64, damping: f64, stiffness: f64) -> f64 {
         let [displacement, velocity] = self.0.at(time);
         stiffness * displacement + damping * velocity
+    }
+
+    fn shortest_feature(&self) -> f64 {
+        self.0.shortest_feature()
+    }
+
+    fn jump(&self) -> Option<Jump> {
+        self.0.jump()
     }
 }
 

@@ -23,6 +23,7 @@ mod kind;
 mod normal;
 mod restitution;
 mod solver_parameters;
+mod turn;
 
 pub use damping::{Damping, Ending};
 pub use force_law::ForceLaw;
@@ -31,8 +32,8 @@ pub use hertz::ElasticImpact;
 pub use hertz_mindlin::{HertzMindlin, TangentialSpring};
 pub use hertz_tsuji::HertzTsuji;
 pub use impulse_law::ImpulseLaw;
-pub use kind::{Forces, Impulses, LawKind};
-pub(crate) use kind::{LawVisitor, Memory};
+pub(crate) use kind::LawVisitor;
+pub use kind::{ContactMemory, Forces, Impulses, LawKind};
 pub use restitution::{RestitutionCoefficients, RestitutionImpulse};
 pub use solver_parameters::{SolverParameters, SweepOrder};
 
@@ -88,6 +89,12 @@ pub trait ContactLaw: Sync {
     /// If the law has no answer for them: an unknown material, a number out of range.
     fn coefficients(&self, bodies: &Bodies) -> Result<Self::Coefficients, LawError>;
 
+    /// The impact speed in m/s that the law is set up for, above which its answers are worth less. An error
+    /// names a particle that is faster. Infinite unless stated.
+    fn design_speed(&self) -> f64 {
+        f64::INFINITY
+    }
+
     /// The longest time step in s that two bodies bear under this law.
     fn time_step_limit(&self, _coefficients: &Self::Coefficients) -> f64 {
         f64::INFINITY
@@ -105,6 +112,10 @@ macro_rules! forward_law {
 
             fn coefficients(&self, bodies: &Bodies) -> Result<Self::Coefficients, LawError> {
                 (**self).coefficients(bodies)
+            }
+
+            fn design_speed(&self) -> f64 {
+                (**self).design_speed()
             }
 
             fn time_step_limit(&self, coefficients: &Self::Coefficients) -> f64 {

@@ -80,7 +80,7 @@
 //!
 //! | feature | adds |
 //! |---|---|
-//! | `serde` | [`Snapshot`]s can be written and read |
+//! | `serde` | [`Snapshot`]s and [`Recording`]s can be written and read |
 //! | `rayon` | response curves and large beds on all cores |
 //!
 //! Neither is on by default, and neither changes a bit of any result.
@@ -88,7 +88,8 @@
 //! # Goals, in this order
 //!
 //! 1. Right: theory and published tests are met to the digits they give (`tests/validation`).
-//! 2. The same bits from run to run, whichever detector, however many threads, after a restore.
+//! 2. The same bits from run to run, whichever detector, however many threads, after a restore, and on
+//!    every platform whose `f64` is that of IEEE 754.
 //! 3. Fast.
 //! 4. Pleasant to embed. Bad input is refused when a damper is built; the library never panics,
 //!    prints, reads a clock or starts a thread of its own.
@@ -101,6 +102,8 @@
     clippy::print_stdout,
     clippy::print_stderr
 )]
+// Bits of its own, not of the platform.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod cavity;
 mod contact;
@@ -125,7 +128,8 @@ pub use glam;
 pub use cavity::{Cavity, Cuboid, Slot};
 pub use contact::{Bodies, Body, Contact, ContactForce, Edge, HeldForce, Stored};
 pub use damper::{
-    BuildError, Builder, Damper, Partner, Reaction, RestoreError, Snapshot, StepError, WallLoad,
+    BuildError, Builder, Cause, Damper, Partner, Reaction, Recorded, Recording, ReplayError,
+    RestoreError, Snapshot, StepBound, StepError, WallLoad,
 };
 pub use detector::{
     AllPairs, Bed, CellGrid, Counted, Detector, DetectorError, LinkedCells, Neighbourhood, Pairs,
@@ -135,9 +139,9 @@ pub use error::{Bound, ValueError};
 pub use filling::{Filling, FillingError};
 pub use integrator::{Integrator, RungeKutta4, VelocityVerlet};
 pub use law::{
-    ContactLaw, Damping, ElasticImpact, Ending, ForceLaw, Forces, Friction, HertzMindlin,
-    HertzTsuji, ImpulseLaw, Impulses, LawError, LawKind, RestitutionImpulse, SolverParameters,
-    SweepOrder, TangentialSpring,
+    ContactLaw, ContactMemory, Damping, ElasticImpact, Ending, ForceLaw, Forces, Friction,
+    HertzMindlin, HertzTsuji, ImpulseLaw, Impulses, LawError, LawKind, RestitutionImpulse,
+    SolverParameters, SweepOrder, TangentialSpring,
 };
 pub use material::{Interaction, Material, MaterialId, Materials};
 pub use mount::{Driven, Motion, Mount, MountEnergy, Prescribed, SingleDof};

@@ -115,7 +115,7 @@ impl Material {
     /// 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 (Hertz; the paper's Eqs (6) and (7)).
     #[must_use]
     pub fn effective_modulus(&self, other: &Self) -> f64 {
-        let compliance = |m: &Self| (1.0 - m.poissons_ratio.powi(2)) / m.youngs_modulus;
+        let compliance = |m: &Self| (1.0 - m.poissons_ratio * m.poissons_ratio) / m.youngs_modulus;
         1.0 / (compliance(self) + compliance(other))
     }
 

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::excitation::Jump;
+
 mod driven;
 mod single_dof;
 
@@ -68,7 +70,9 @@ impl MountEnergy {
 /// 3. [`accelerate`](Self::accelerate) solves the mount's equations of motion under `loads`, the
 ///    forces (N) of the particles on each container. It is linear in the loads: from that follows what an
 ///    impulse on a container does. A mount with coordinates that no load moves is refused.
-/// 4. [`energy`](Self::energy) is for observers. A mount without coordinates keeps the default: an
+/// 4. [`highest_frequency`](Self::highest_frequency) and [`shortest_feature`](Self::shortest_feature)
+///    say what steps the mount bears.
+/// 5. [`energy`](Self::energy) is for observers. A mount without coordinates keeps the default: an
 ///    [`EnergyLedger`](crate::EnergyLedger) counts the work of moving its containers by itself.
 ///
 /// Two equal masses on a line, coupled by a spring, with a container on each:
@@ -92,6 +96,9 @@ impl MountEnergy {
 ///         let spring = self.stiffness * (x[1] - x[0]);
 ///         a[0] = (loads[0].x + spring) / self.mass;
 ///         a[1] = (loads[1].x - spring) / self.mass;
+///     }
+///     fn highest_frequency(&self) -> f64 {
+///         (2.0 * self.stiffness / self.mass).sqrt() / std::f64::consts::TAU
 ///     }
 /// }
 /// ```
@@ -122,6 +129,25 @@ pub trait Mount {
     /// Energy and powers at an instant; zero unless said otherwise.
     fn energy(&self, _time: f64, _coordinates: &[f64], _velocities: &[f64]) -> MountEnergy {
         MountEnergy::default()
+    }
+
+    /// The highest natural frequency in Hz, or the highest rate of decay (rad/s) over 2 pi if that is
+    /// higher; zero if there is none. A damper takes 20 steps to a period at the least, which keep the
+    /// frequency to 0.5 % under [`VelocityVerlet`](crate::VelocityVerlet), and the amplitude to 2e-4 a
+    /// period under [`RungeKutta4`](crate::RungeKutta4). A mount that states none is taken on trust.
+    fn highest_frequency(&self) -> f64 {
+        0.0
+    }
+
+    /// How long the [shortest feature](crate::excitation::Excitation::shortest_feature) of what drives
+    /// the mount takes, s; infinite unless stated.
+    fn shortest_feature(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    /// A jump of the mount's base that nobody asked for. None unless stated.
+    fn jump(&self) -> Option<Jump> {
+        None
     }
 
     /// Told that the damper was restored to a state with the containers at `motions`. Only a mount
@@ -155,6 +181,18 @@ impl<M: Mount + ?Sized> Mount for &mut M {
 
     fn energy(&self, time: f64, coordinates: &[f64], velocities: &[f64]) -> MountEnergy {
         (**self).energy(time, coordinates, velocities)
+    }
+
+    fn highest_frequency(&self) -> f64 {
+        (**self).highest_frequency()
+    }
+
+    fn shortest_feature(&self) -> f64 {
+        (**self).shortest_feature()
+    }
+
+    fn jump(&self) -> Option<Jump> {
+        (**self).jump()
     }
 
     fn resume(&mut self, motions: &[Motion]) {

@@ -50,7 +50,7 @@ impl Particle {
     /// If radius or density is not positive and finite.
     pub fn with_density(radius: f64, density: f64) -> Result<Self, ValueError> {
         Bound::Positive.check("particle density (kg/m^3)", density)?;
-        let volume = 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
+        let volume = 4.0 / 3.0 * std::f64::consts::PI * (radius * radius * radius);
         Self::new(radius, density * volume)
     }
 

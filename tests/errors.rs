@@ -10,11 +10,15 @@
 
 #[path = "errors/builders.rs"]
 mod builders;
+#[path = "errors/causes.rs"]
+mod causes;
 #[path = "errors/laws.rs"]
 mod laws;
 #[path = "errors/parts.rs"]
 mod parts;
 #[path = "errors/running.rs"]
 mod running;
+#[path = "errors/steps.rs"]
+mod steps;
 #[path = "errors/table.rs"]
 mod table;

@@ -3,7 +3,10 @@
 
 use glam::{DVec3, dvec3};
 use particle_damper::cavity::{Cavity, Cuboid, Cylinder, Disc, Slot, Sphere, WallPoint};
-use particle_damper::{Filling, FillingError, Materials, Particle, ValueError};
+use particle_damper::{
+    BuildError, Damper, Filling, FillingError, HertzTsuji, Material, Materials, Particle,
+    ValueError,
+};
 use proptest::prelude::*;
 
 fn ball(radius: f64) -> Particle {
@@ -264,4 +267,36 @@ fn what_cannot_be_filled_is_refused_with_its_reason() {
     ));
     let large = Filling::new(1).with(1, ball(0.04)).fill(&Slot::paper());
     assert!(matches!(large, Err(FillingError::NoRoom { placed: 0, .. })));
+}
+
+/// A particle a nanometre larger than its cavity is wide was refused, while overlaps of some per cent pass.
+#[test]
+fn an_exact_fit_may_be_off_by_rounding_and_by_what_may_be_squeezed() {
+    let r = 3e-3;
+    for excess in [-1e-9, 0.0, 1e-15, 1e-9] {
+        let particle = Particle::new(r + 0.5 * excess, 0.2e-3).unwrap();
+        let narrow = Cuboid::new(dvec3(2.0 * r, 0.05, 2.0 * r)).unwrap();
+        let bed = Filling::new(1).with(4, particle).fill(&narrow).unwrap();
+        assert_eq!(bed.len(), 4);
+        let law = HertzTsuji::new(Material::acrylic());
+        let mut damper = Damper::builder(narrow, law).particles(bed).build().unwrap();
+        for _ in 0..1000 {
+            damper.step().unwrap();
+        }
+        assert!(damper.largest_overlap() < 0.01 * r);
+    }
+    // Twice the overlap that is allowed, and no more.
+    let built = |radius: f64| {
+        let particle = Particle::new(radius, 0.2e-3).unwrap();
+        let narrow = Slot::new(2.0 * r, 0.05).unwrap();
+        Damper::builder(narrow, HertzTsuji::new(Material::acrylic()))
+            .particles([particle.at(dvec3(r, 0.02, 0.0))])
+            .build()
+    };
+    assert!(built(1.05 * r).is_ok());
+    let error = built(1.06 * r).err().unwrap();
+    assert!(
+        matches!(error, BuildError::TooLarge { particle: 0, .. }),
+        "{error}"
+    );
 }

@@ -14,7 +14,7 @@ use super::chunk::Chunk;
 use super::scene::{Scene, WallLoad};
 use super::vectors::Rows;
 use crate::cavity::Cavity;
-use crate::law::{ContactLaw, Memory};
+use crate::law::{ContactLaw, ContactMemory};
 
 mod evaluate;
 mod list;
@@ -66,7 +66,7 @@ pub(crate) struct Listing<'a, C, L: ContactLaw> {
 }
 
 /// What contacts remember: of pairs, and of walls.
-pub(crate) type Memories<L> = [Vec<Remembered<Memory<L>>>; 2];
+pub(crate) type Memories<L> = [Vec<Remembered<ContactMemory<L>>>; 2];
 
 /// Room for what contacts of a block remember in a bed of `particles`.
 pub(crate) fn memories<M>(particles: usize) -> [Vec<Remembered<M>>; 2] {

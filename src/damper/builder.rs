@@ -7,6 +7,7 @@ use crate::mount::{Driven, Mount};
 use crate::particle::Particle;
 
 mod build;
+mod time_step;
 
 /// Overlaps up to this fraction of the smallest radius are taken for contacts of a settled bed.
 const INITIAL_OVERLAP: f64 = 0.05;
@@ -27,6 +28,7 @@ pub struct Builder<C, L, M = Driven, D = Skin<LinkedCells>, I = VelocityVerlet> 
     integrator: I,
     gravity: DVec3,
     time_step: Option<f64>,
+    start_time: f64,
     wall_material: MaterialId,
     particles: Vec<Particle>,
     initial_overlap: f64,
@@ -45,6 +47,7 @@ impl<C, L> Builder<C, L> {
             integrator: VelocityVerlet,
             gravity: DVec3::NEG_Y * 9.81,
             time_step: None,
+            start_time: 0.0,
             wall_material: Materials::FIRST,
             particles: Vec::new(),
             initial_overlap: INITIAL_OVERLAP,
@@ -66,6 +69,7 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
             integrator: self.integrator,
             gravity: self.gravity,
             time_step: self.time_step,
+            start_time: self.start_time,
             wall_material: self.wall_material,
             particles: self.particles,
             initial_overlap: self.initial_overlap,
@@ -99,6 +103,7 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
             integrator,
             gravity: self.gravity,
             time_step: self.time_step,
+            start_time: self.start_time,
             wall_material: self.wall_material,
             particles: self.particles,
             initial_overlap: self.initial_overlap,
@@ -121,6 +126,7 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
             integrator: self.integrator,
             gravity: self.gravity,
             time_step: self.time_step,
+            start_time: self.start_time,
             wall_material: self.wall_material,
             particles: self.particles,
             initial_overlap: self.initial_overlap,
@@ -141,9 +147,16 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
         self
     }
 
-    /// Length of a step in s; half of what the law allows unless set.
+    /// Length of a step in s. Unless set, half of what the law allows, and no more than the mount's
+    /// [natural frequency](Mount::highest_frequency) and the [excitation](Mount::shortest_feature) do.
     pub const fn time_step(mut self, time_step: f64) -> Self {
         self.time_step = Some(time_step);
+        self
+    }
+
+    /// Simulated time at the start in s; zero unless set.
+    pub const fn start_time(mut self, time: f64) -> Self {
+        self.start_time = time;
         self
     }
 
@@ -160,6 +173,11 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
     }
 
     /// Largest overlap at the start, as a fraction of the smallest radius; 0.05 unless set.
+    ///
+    /// This is the one rule for what may be squeezed: every contact at the start, of two particles or of a
+    /// particle and a wall, by so much and no more. A particle may thus be larger than its cavity is wide by
+    /// twice that. (A [`Filling`](crate::Filling) squeezes by a millionth of a radius at most, to let an exact
+    /// fit stand.)
     pub const fn initial_overlap(mut self, fraction: f64) -> Self {
         self.initial_overlap = fraction;
         self

@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use super::coefficients::Coefficients;
-use crate::law::{ContactLaw, LawError, Memory};
+use crate::law::{ContactLaw, ContactMemory, LawError};
 
 /// Two bodies that might touch.
 #[derive(Debug, Clone, Copy)]
@@ -57,7 +57,7 @@ pub(crate) struct Candidates<L: ContactLaw> {
     /// Place of the entry of each, or [`NONE`]; empty if contacts remember nothing.
     entry: Vec<u32>,
     /// What those remember that have touched since they were listed, or had before.
-    entries: Vec<Entry<Memory<L>>>,
+    entries: Vec<Entry<ContactMemory<L>>>,
     /// One each, if the law has to be asked pair by pair; else empty.
     prepared: Vec<L::Coefficients>,
     pub(crate) contacts: Contacts,
@@ -147,7 +147,7 @@ impl<L: ContactLaw> Default for Candidates<L> {
 
 impl<L: ContactLaw> Candidates<L> {
     /// Whether the law's contacts remember anything; decided when the program is compiled.
-    pub(crate) const REMEMBERS: bool = size_of::<Memory<L>>() != 0;
+    pub(crate) const REMEMBERS: bool = size_of::<ContactMemory<L>>() != 0;
 
     /// Empties the list.
     pub(crate) fn clear(&mut self) {
@@ -156,7 +156,7 @@ impl<L: ContactLaw> Candidates<L> {
     }
 
     /// Adds to `remembered` the memories of contacts that touched at the end of step `stamp`.
-    pub(crate) fn remember(&self, stamp: u32, remembered: &mut Vec<Remembered<Memory<L>>>) {
+    pub(crate) fn remember(&self, stamp: u32, remembered: &mut Vec<Remembered<ContactMemory<L>>>) {
         if !Self::REMEMBERS {
             return;
         }
@@ -207,7 +207,7 @@ impl<L: ContactLaw> Candidates<L> {
     pub(crate) fn finish(
         &mut self,
         stamp: u32,
-        remembered: &[Remembered<Memory<L>>],
+        remembered: &[Remembered<ContactMemory<L>>],
         key: impl Fn(u32, u32) -> (u32, u32),
     ) {
         let count = self.list.len();
@@ -224,7 +224,7 @@ impl<L: ContactLaw> Candidates<L> {
         let mut remembered = remembered.iter().peekable();
         for (entry, candidate) in self.entry.iter_mut().zip(&self.list) {
             let own = key(candidate.first, candidate.second);
-            let of = |contact: &Remembered<Memory<L>>| key(contact.first, contact.second);
+            let of = |contact: &Remembered<ContactMemory<L>>| key(contact.first, contact.second);
             while remembered.next_if(|contact| of(contact) < own).is_some() {}
             if let Some(contact) = remembered.next_if(|contact| of(contact) == own) {
                 *entry = self.entries.len() as u32;
@@ -289,7 +289,7 @@ impl<L: ContactLaw> Candidates<L> {
 
     /// What a candidate remembers that touched at the end of step `stamp`, if contacts remember anything.
     #[inline(always)]
-    pub(crate) fn touched(&self, place: u32, stamp: u32) -> Option<&Memory<L>> {
+    pub(crate) fn touched(&self, place: u32, stamp: u32) -> Option<&ContactMemory<L>> {
         if !Self::REMEMBERS {
             return None;
         }
@@ -300,13 +300,13 @@ impl<L: ContactLaw> Candidates<L> {
 
     /// Copies what the contacts of a run remember from the end of step `stamp`.
     #[inline(always)]
-    pub(crate) fn recall(&self, run: Range<usize>, stamp: u32, memories: &mut [Memory<L>]) {
+    pub(crate) fn recall(&self, run: Range<usize>, stamp: u32, memories: &mut [ContactMemory<L>]) {
         if Self::REMEMBERS {
             for (place, memory) in self.contacts.places[run].iter().zip(memories) {
                 // Each straight to its place: through a temporary it would be copied twice.
                 match self.touched(*place, stamp) {
                     Some(remembered) => *memory = *remembered,
-                    None => *memory = Memory::<L>::default(),
+                    None => *memory = ContactMemory::<L>::default(),
                 }
             }
         }
@@ -314,7 +314,12 @@ impl<L: ContactLaw> Candidates<L> {
 
     /// Keeps what the contacts of a run remember at the end of step `stamp`.
     #[inline(always)]
-    pub(crate) fn keep_run(&mut self, run: Range<usize>, stamp: u32, memories: &[Memory<L>]) {
+    pub(crate) fn keep_run(
+        &mut self,
+        run: Range<usize>,
+        stamp: u32,
+        memories: &[ContactMemory<L>],
+    ) {
         if Self::REMEMBERS {
             for (place, memory) in self.contacts.places[run].iter().zip(memories) {
                 let entry = &mut self.entry[*place as usize];
@@ -325,7 +330,7 @@ impl<L: ContactLaw> Candidates<L> {
 
     /// Keeps what a candidate remembers at the end of step `stamp`.
     #[inline(always)]
-    pub(crate) fn keep(&mut self, place: u32, stamp: u32, memory: &Memory<L>) {
+    pub(crate) fn keep(&mut self, place: u32, stamp: u32, memory: &ContactMemory<L>) {
         keep(
             &mut self.entries,
             &mut self.entry[place as usize],
@@ -338,7 +343,7 @@ impl<L: ContactLaw> Candidates<L> {
     pub(crate) fn reserved_bytes(&self) -> usize {
         let contacts = &self.contacts;
         size_of::<Candidate>() * self.list.capacity()
-            + size_of::<Entry<Memory<L>>>() * self.entries.capacity()
+            + size_of::<Entry<ContactMemory<L>>>() * self.entries.capacity()
             + size_of::<L::Coefficients>() * self.prepared.capacity()
             + size_of::<[u32; 2]>() * contacts.bodies.capacity()
             + size_of::<u32>() * (self.entry.capacity() + contacts.places.capacity())

@@ -13,7 +13,7 @@ use super::scene::{Scene, at_surface, meeting, resolve};
 use super::vectors::{axial, polar};
 use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce, Edge};
-use crate::law::{ContactLaw, ForceLaw, Memory, at_least};
+use crate::law::{ContactLaw, ContactMemory, ForceLaw, at_least};
 
 /// How many contacts are side by side at the most.
 pub(crate) const CHUNK: usize = 32;
@@ -94,8 +94,8 @@ pub(crate) struct Chunk<L: ContactLaw> {
     /// Rate of overlap, m/s.
     approach: Column,
     kinds: Vec<L::Coefficients>,
-    memory: [Memory<L>; CHUNK],
-    advanced: [Memory<L>; CHUNK],
+    memory: [ContactMemory<L>; CHUNK],
+    advanced: [ContactMemory<L>; CHUNK],
     push: Lanes,
     torques: [Lanes; 2],
 }
@@ -111,8 +111,8 @@ impl<L: ContactLaw> Default for Chunk<L> {
             overlap: [0.0; CHUNK],
             approach: [0.0; CHUNK],
             kinds: Vec::with_capacity(CHUNK),
-            memory: [Memory::<L>::default(); CHUNK],
-            advanced: [Memory::<L>::default(); CHUNK],
+            memory: [ContactMemory::<L>::default(); CHUNK],
+            advanced: [ContactMemory::<L>::default(); CHUNK],
             push: Lanes::ZERO,
             torques: [Lanes::ZERO; 2],
         }
@@ -167,7 +167,7 @@ impl<L: ForceLaw> Chunk<L> {
 
     /// Where it is put what the contacts remember.
     #[inline(always)]
-    pub(crate) const fn memory_mut(&mut self) -> &mut [Memory<L>; CHUNK] {
+    pub(crate) const fn memory_mut(&mut self) -> &mut [ContactMemory<L>; CHUNK] {
         &mut self.memory
     }
 
@@ -325,7 +325,7 @@ impl<L: ForceLaw> Chunk<L> {
         n: usize,
         moment: Moment,
         acceleration: DVec3,
-    ) -> (Contact, ContactForce, Memory<L>) {
+    ) -> (Contact, ContactForce, ContactMemory<L>) {
         let Moment { elapsed, time_step } = moment;
         let (contact, memory) = (self.contact::<false>(n, elapsed), &self.memory[n]);
         let (overlap, approach) = (contact.overlap, contact.approach_speed());
@@ -352,7 +352,7 @@ impl<L: ForceLaw> Chunk<L> {
 
     /// What the contacts remember at the end of the step.
     #[inline(always)]
-    pub(crate) const fn advanced(&self) -> &[Memory<L>; CHUNK] {
+    pub(crate) const fn advanced(&self) -> &[ContactMemory<L>; CHUNK] {
         &self.advanced
     }
 

@@ -11,6 +11,9 @@ use crate::material::MaterialId;
 /// table of all pairs of kinds would no longer stay in the caches.
 const TABLE_LIMIT: usize = 64;
 
+/// A kind with another, or with a wall if there is none.
+pub(crate) type Meeting = (u32, Option<u32>);
+
 /// Coefficients by pair of kinds, and by kind at a wall.
 #[derive(Debug, Clone)]
 pub(crate) struct Coefficients<K> {
@@ -45,23 +48,38 @@ impl<K: Copy> Coefficients<K> {
     }
 
     /// The longest time step that `law` allows for every wall contact and every pair of kinds; of a
-    /// long list of kinds, for every kind against itself and against the lightest.
-    pub(crate) fn time_step_limit<L>(&self, law: &L) -> Result<f64, LawError>
+    /// long list of kinds, for every kind against itself and against the lightest. Beside it the kind
+    /// that sets it, with the other if it is a pair.
+    pub(crate) fn time_step_limit<L>(&self, law: &L) -> Result<(f64, Option<Meeting>), LawError>
     where
         L: ContactLaw<Coefficients = K>,
     {
-        let longest = |limit: f64, coefficients: &K| limit.min(law.time_step_limit(coefficients));
-        let mut limit = self.walls.iter().fold(f64::INFINITY, longest);
-        if let Some(pairs) = &self.pairs {
-            return Ok(pairs.iter().fold(limit, longest));
+        let mut shortest = (f64::INFINITY, None);
+        let mut heed = |coefficients: &K, kind: usize, other: Option<usize>| {
+            let limit = law.time_step_limit(coefficients);
+            if limit < shortest.0 || limit.is_nan() {
+                shortest = (limit, Some((kind as u32, other.map(|kind| kind as u32))));
+            }
+        };
+        for (kind, wall) in self.walls.iter().enumerate() {
+            heed(wall, kind, None);
         }
-        let lightest = self.kinds.iter().min_by(|a, b| a.mass.total_cmp(&b.mass));
-        for kind in &self.kinds {
-            for other in [kind].into_iter().chain(lightest) {
-                limit = longest(limit, &law.coefficients(&Bodies::new(*kind, *other))?);
+        let count = self.kinds.len();
+        if let Some(pairs) = &self.pairs {
+            for (number, pair) in pairs.iter().enumerate() {
+                heed(pair, number / count, Some(number % count));
+            }
+            return Ok(shortest);
+        }
+        let masses = self.kinds.iter().enumerate();
+        let lightest = masses.min_by(|a, b| a.1.mass.total_cmp(&b.1.mass));
+        for own in self.kinds.iter().enumerate() {
+            for other in [own].into_iter().chain(lightest) {
+                let pair = law.coefficients(&Bodies::new(*own.1, *other.1))?;
+                heed(&pair, own.0, Some(other.0));
             }
         }
-        Ok(limit)
+        Ok(shortest)
     }
 
     /// Whether pairs have to be prepared one by one ([`prepare`](Self::prepare)).

@@ -6,8 +6,6 @@
 //! moves everything: x' = x + (v + v') dt/2. What is here serves the step alone, but for the forces that
 //! contacts at rest bore, from which the next step starts.
 
-use glam::DVec3;
-
 use super::engine::Engine;
 use super::error::StepError;
 use super::space::{Plane, Space, Volume};
@@ -84,14 +82,6 @@ impl ContactSolver {
             Self::Plane(Box::new(Stages::new(position)))
         } else {
             Self::Volume(Box::new(Stages::new(position)))
-        }
-    }
-
-    /// Where the container of a cavity was when contacts were looked for.
-    pub(crate) fn origin(&self, cavity: usize) -> DVec3 {
-        match self {
-            Self::Plane(stages) => stages.containers.origin(cavity),
-            Self::Volume(stages) => stages.containers.origin(cavity),
         }
     }
 

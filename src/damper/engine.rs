@@ -4,6 +4,7 @@
 use glam::DVec3;
 
 use super::block::{Block, Memories, Place, block_size, room_for};
+use super::cause::Begin;
 use super::contact_dynamics::ContactSolver;
 use super::error::StepError;
 use super::particles::Particles;
@@ -117,6 +118,8 @@ pub(crate) struct Engine<C, L: ContactLaw, M, D> {
     /// Forces of the particles on each container.
     pub(crate) loads: Vec<DVec3>,
     pub(crate) time: f64,
+    /// How the step began.
+    pub(crate) begin: Begin,
     pub(crate) detections: u64,
     /// Steps since a large bed was sorted.
     pub(crate) since_sort: u32,
@@ -144,6 +147,14 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let degrees = self.mount.degrees();
         let coordinates = &self.mount_state.position[..degrees];
         let velocities = &self.mount_state.velocity[..degrees];
+        let mut both = coordinates.iter().zip(velocities);
+        if let Some(coordinate) = both.position(|(x, v)| !(x.is_finite() && v.is_finite())) {
+            return Err(StepError::Mount {
+                coordinate,
+                value: coordinates[coordinate],
+                rate: velocities[coordinate],
+            });
+        }
         for (cavity, room) in self.world.rooms.iter_mut().enumerate() {
             let Motion { position, velocity } =
                 self.mount.motion(time, coordinates, velocities, cavity);
@@ -275,6 +286,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 super::Partner::Particle(_) => 0,
             },
             position: self.particles.position.get(slot) - room.motion.position,
+            cause: self.cause(),
         }
     }
 
@@ -289,6 +301,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             other,
             overlap: block.largest_overlap,
             limit: self.overlap_limit,
+            cause: self.cause(),
         }
     }
 
@@ -335,8 +348,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         Ok(())
     }
 
-    /// Begins a step of `time_step` (s).
-    pub(crate) fn begin<O: Observer>(
+    /// Begins a step of `time_step` (s): an impulse law works out what holds over it.
+    pub(crate) fn begin_step<O: Observer>(
         &mut self,
         time_step: f64,
         observer: &mut O,
@@ -349,10 +362,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     }
 
     /// Ends a step.
-    pub(crate) fn end(&mut self) -> Result<(), StepError> {
-        self.check_left_behind()?;
+    pub(crate) const fn end_step(&mut self) {
         self.world.stamp = self.world.stamp.wrapping_add(1);
-        Ok(())
     }
 }
 

@@ -1,8 +1,64 @@
+use std::fmt;
+
 use glam::DVec3;
 
+use super::Cause;
 use crate::detector::DetectorError;
 use crate::error::ValueError;
+use crate::excitation::Jump;
 use crate::law::LawError;
+
+/// What sets the longest time step of a damper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum StepBound {
+    /// The contact of two particles under the contact law.
+    Pair {
+        /// Number of a particle.
+        first: usize,
+        /// Number of another of the kind that it meets, or of the same one if it is the only one.
+        second: usize,
+    },
+    /// The contact of a particle and a wall under the contact law.
+    Wall {
+        /// Number of the particle.
+        particle: usize,
+    },
+    /// The mount: 20 steps to a period of its highest natural frequency.
+    NaturalFrequency {
+        /// The frequency in Hz.
+        frequency: f64,
+    },
+    /// The excitation: ten steps to its shortest feature.
+    Feature {
+        /// How long it takes, s.
+        duration: f64,
+    },
+}
+
+impl fmt::Display for StepBound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Pair { first, second } if first == second => {
+                write!(f, "the contact law for two particles like {first}")
+            }
+            Self::Pair { first, second } => {
+                write!(f, "the contact law for particles like {first} and {second}")
+            }
+            Self::Wall { particle } => {
+                write!(f, "the contact law for particle {particle} at a wall")
+            }
+            Self::NaturalFrequency { frequency } => write!(
+                f,
+                "the mount, whose natural frequency of {frequency} Hz 20 steps to a period keep to 0.5 %"
+            ),
+            Self::Feature { duration } => write!(
+                f,
+                "the excitation, of whose shortest feature of {duration} s ten steps keep the impulse to 1 %"
+            ),
+        }
+    }
+}
 
 /// Why a damper could not be built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -83,13 +139,15 @@ pub enum BuildError {
         /// How many cavities there are.
         cavities: usize,
     },
-    /// The time step is longer than the law can bear.
-    #[error("time step {time_step} s is longer than the contact law bears: at most {limit} s")]
+    /// The time step is longer than some part can bear.
+    #[error("time step {time_step} s is too long: at most {limit} s is borne by {bound}")]
     TimeStepTooLong {
         /// The step asked for in s.
         time_step: f64,
         /// The longest step in s.
         limit: f64,
+        /// What sets the limit.
+        bound: StepBound,
     },
     /// A mount whose coordinates no load on a container moves: it lacks
     /// [`Mount::accelerate`](crate::Mount::accelerate), or its containers do not follow its coordinates.
@@ -101,6 +159,12 @@ pub enum BuildError {
         /// How many coordinates the mount has.
         degrees: usize,
     },
+    /// The base of the mount jumps.
+    #[error(
+        "the base jumps at {} s, by {} m and {} m/s; what it does beyond a record can be chosen (`Sampled::beyond`)",
+        .0.time, .0.value, .0.rate
+    )]
+    BaseJumps(Jump),
     /// Neither one detector for each cavity, nor one that can be copied.
     #[error("there are {cavities} cavities and {detectors} detectors; each cavity needs its own")]
     DetectorCount {
@@ -120,8 +184,8 @@ pub enum BuildError {
     /// The first evaluation failed.
     #[error(transparent)]
     Start(#[from] StepError),
-    /// No time step was given, and the law sets no limit to derive one from.
-    #[error("no time step was given, and the contact law does not limit it")]
+    /// No time step was given, and no part sets a limit to derive one from.
+    #[error("no time step was given, and neither contact law nor mount limit it")]
     NoTimeStep,
     /// More particles than 32-bit numbers can count.
     #[error("{count} particles are more than the limit of {limit}")]
@@ -148,7 +212,7 @@ pub enum StepError {
         acceleration: DVec3,
     },
     /// The centre of a particle has passed a wall.
-    #[error("particle {particle} has left the cavity through wall {wall}, at {position}")]
+    #[error("particle {particle} has left the cavity through wall {wall}, at {position}: {cause}")]
     Escaped {
         /// Number of the particle.
         particle: usize,
@@ -156,12 +220,14 @@ pub enum StepError {
         wall: u32,
         /// Its position in the container's frame in m.
         position: DVec3,
+        /// What may lie behind it.
+        cause: Cause,
     },
     /// Two bodies overlap by more than the stated bound.
     #[error(
-        "particle {particle} overlaps {other} by {overlap} m; the limit is {limit} m. A shorter time step \
-         helps; under an impulse law more sweeps, where heavy bodies press on light ones; under a force \
-         law a stiffer material"
+        "particle {particle} overlaps {other} by {overlap} m; the limit is {limit} m: {cause}. A shorter \
+         step helps; under an impulse law more sweeps, where heavy bodies press on light ones; under a \
+         force law a stiffer material"
     )]
     Overlap {
         /// Number of the particle.
@@ -172,6 +238,45 @@ pub enum StepError {
         overlap: f64,
         /// The bound in m.
         limit: f64,
+        /// What may lie behind it.
+        cause: Cause,
+    },
+    /// A container has left the course with which it began the step by so much that its walls may have
+    /// passed over particles.
+    #[error(
+        "the container of cavity {cavity} is {off} m off the course that it began the step with, {limit} m at most can be followed: {cause}"
+    )]
+    Jump {
+        /// Number of the cavity.
+        cavity: usize,
+        /// How far it is off in m.
+        off: f64,
+        /// The bound in m: half the radius of the smallest particle.
+        limit: f64,
+        /// What lies behind it.
+        cause: Cause,
+    },
+    /// The velocity of a prescribed motion is not the rate of its position.
+    #[error(
+        "the velocity of the container of cavity {cavity} is not the rate of its position: {velocity} against {rate} m/s"
+    )]
+    NotItsRate {
+        /// Number of the cavity.
+        cavity: usize,
+        /// Its velocity in m/s, on the mean of the step.
+        velocity: DVec3,
+        /// Way over time in the step, m/s.
+        rate: DVec3,
+    },
+    /// The mount's coordinates are no longer finite.
+    #[error("the mount runs away: coordinate {coordinate} is at {value} with a rate of {rate}")]
+    Mount {
+        /// Number of the coordinate.
+        coordinate: usize,
+        /// Its value.
+        value: f64,
+        /// Its rate.
+        rate: f64,
     },
     /// A particle moves by more than its radius relative to its container in a step: it could pass others,
     /// or a wall, unseen. A shorter step follows it.

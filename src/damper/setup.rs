@@ -1,15 +1,14 @@
-//! What a damper is set up of, told apart by fingerprints.
+//! What a damper is set up of, told apart by how its parts behave.
 
-use std::fmt::{self, Write};
-
-use glam::DVec3;
+use glam::{DVec3, dvec3};
 
 use super::coefficients::Coefficients;
+use super::digest::Digest;
 use super::engine::Engine;
 use crate::cavity::Cavity;
-use crate::contact::Body;
+use crate::contact::{Body, Contact};
 use crate::detector::Detector;
-use crate::law::ContactLaw;
+use crate::law::{ContactLaw, ForceLaw, ImpulseLaw, LawKind, LawVisitor};
 use crate::mount::Mount;
 
 /// The setup of a damper, as far as its state means nothing without it.
@@ -18,13 +17,22 @@ use crate::mount::Mount;
 pub(crate) struct Setup {
     time_step: f64,
     gravity: DVec3,
-    kinds: Fingerprint,
-    cavities: Fingerprint,
-    law: Fingerprint,
-    mount: Fingerprint,
+    kinds: Digest,
+    cavities: Digest,
+    law: Digest,
+    mount: Digest,
 }
 
 impl Setup {
+    /// Adds all of it.
+    pub(crate) fn add_to(&self, digest: &mut Digest) {
+        digest.number(self.time_step);
+        digest.vector(self.gravity);
+        for part in [self.kinds, self.cavities, self.law, self.mount] {
+            digest.add(part);
+        }
+    }
+
     /// The setup of `engine` under steps of `time_step` (s).
     pub(crate) fn new<C, L, M, D>(engine: &Engine<C, L, M, D>, time_step: f64) -> Self
     where
@@ -34,23 +42,25 @@ impl Setup {
         D: Detector,
     {
         let world = &engine.world;
-        let mut cavities = Fingerprint::default();
-        let mut mount = Fingerprint::default();
-        cavities.add(&world.rooms.len());
-        mount.add(&engine.mount.degrees());
-        mount.add(&engine.container_responses());
+        let mut cavities = Digest::default();
+        let mut mount = Digest::default();
+        cavities.word(world.rooms.len() as u64);
+        mount.word(engine.mount.degrees() as u64);
+        for response in engine.container_responses() {
+            mount.numbers(&response.to_cols_array());
+        }
         for room in &world.rooms {
-            cavities.add_cavity(&room.cavity);
+            add_cavity(&mut cavities, &room.cavity);
         }
         if world.rooms.len() > 1 {
-            cavities.add(&engine.particles.number);
+            cavities.words(&engine.particles.number);
         }
         Self {
             time_step,
             gravity: engine.gravity,
-            kinds: Fingerprint::of(&engine.particles.kinds),
+            kinds: of_kinds(&engine.particles.kinds),
             cavities,
-            law: Fingerprint::of_law(&world.coefficients, &engine.particles.kinds),
+            law: of_law(&world.law, &world.coefficients, &engine.particles.kinds),
             mount,
         }
     }
@@ -73,63 +83,116 @@ impl Setup {
     }
 }
 
-/// The FNV-1a hash of what values show of themselves for debugging, which of a number is every bit.
-/// (Fowler, Noll & Vo; the same on every platform.)
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-struct Fingerprint(u64);
+/// Overlaps (in radii) and velocities (m/s, relative and of the surface) of the contacts that laws are told
+/// apart by: shallow and deep, met and parted, at rest, creeping and sliding.
+const PROBES: [(f64, DVec3); 6] = [
+    (1e-4, DVec3::ZERO),
+    (1e-2, dvec3(-0.3, 0.11, 0.07)),
+    (1e-2, dvec3(-1e-3, 1e-4, -3e-5)),
+    (1e-1, dvec3(-2.0, -1.3, 0.4)),
+    (1e-1, dvec3(0.2, 1e-3, 0.0)),
+    (5e-2, dvec3(1e-3, 0.0, 5e-2)),
+];
 
-impl Default for Fingerprint {
-    fn default() -> Self {
-        Self(0xCBF2_9CE4_8422_2325)
+/// Adds what `law` answers two bodies in contacts that are the same everywhere.
+fn add_answers<L: ContactLaw>(
+    digest: &mut Digest,
+    law: &L,
+    coefficients: &L::Coefficients,
+    radius: f64,
+) {
+    digest.number(law.time_step_limit(coefficients));
+    L::Kind::accept(AddAnswers {
+        digest,
+        law,
+        coefficients,
+        radius,
+    });
+}
+
+/// What a law answers at the probes.
+struct AddAnswers<'a, L: ContactLaw> {
+    digest: &'a mut Digest,
+    law: &'a L,
+    coefficients: &'a L::Coefficients,
+    radius: f64,
+}
+
+impl<L: ContactLaw> LawVisitor<L> for AddAnswers<'_, L> {
+    type Output = ();
+
+    fn forces(self)
+    where
+        L: ForceLaw,
+    {
+        for (depth, velocity) in PROBES {
+            let mut contact = Contact::new(DVec3::X, depth * self.radius, velocity);
+            contact.spins = [dvec3(10.0, -20.0, 30.0), dvec3(-5.0, 15.0, 2.5)];
+            contact.elapsed = 1e-4;
+            let memory = L::Memory::default();
+            let force = self.law.force(self.coefficients, &contact, &memory);
+            self.digest.number(force.normal);
+            self.digest.vector(force.tangential);
+            self.digest.vector(force.couple);
+        }
+    }
+
+    fn impulses(self)
+    where
+        L: ImpulseLaw,
+    {
+        let Self {
+            digest,
+            law,
+            coefficients,
+            ..
+        } = self;
+        for speed in [1e-3, 0.1, 1.0, 10.0] {
+            digest.number(law.restitution(coefficients, speed));
+        }
+        digest.number(law.friction(coefficients));
+        digest.number(law.rolling_arm(coefficients));
+        law.solver().tell(&mut |number| digest.number(number));
     }
 }
 
-impl Write for Fingerprint {
-    fn write_str(&mut self, text: &str) -> fmt::Result {
-        for byte in text.bytes() {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3);
+/// A law by its answers for each kind at a wall, and against itself and its neighbour.
+fn of_law<L: ContactLaw>(law: &L, table: &Coefficients<L::Coefficients>, kinds: &[Body]) -> Digest {
+    let mut digest = Digest::default();
+    digest.number(law.design_speed());
+    let count = kinds.len() as u32;
+    for (kind, body) in (0..count).zip(kinds) {
+        add_answers(&mut digest, law, table.wall(kind), body.radius);
+        if !table.is_by_pair() {
+            for other in [kind, (kind + 1) % count] {
+                let pair = table.pair(kind, other, None);
+                add_answers(&mut digest, law, &pair, body.radius);
+            }
         }
-        Ok(())
     }
+    digest
 }
 
-impl Fingerprint {
-    fn of(value: &impl fmt::Debug) -> Self {
-        let mut own = Self::default();
-        own.add(value);
-        own
+fn of_kinds(kinds: &[Body]) -> Digest {
+    let mut digest = Digest::default();
+    for kind in kinds {
+        digest.numbers(&[kind.radius, kind.mass]);
+        digest.word(u64::from(kind.material.0));
     }
+    digest
+}
 
-    fn add(&mut self, value: &impl fmt::Debug) {
-        // Hashing fails only if the value's own formatting does; what came before then has to do.
-        let _ = write!(self, "{value:?};");
-    }
-
-    /// A law by what it prepares for each kind at a wall and against itself and its neighbour.
-    fn of_law<K: Copy + fmt::Debug>(table: &Coefficients<K>, kinds: &[Body]) -> Self {
-        let mut own = Self::default();
-        let count = kinds.len() as u32;
-        for kind in 0..count {
-            own.add(table.wall(kind));
-            if !table.is_by_pair() {
-                own.add(&table.pair(kind, kind, None));
-                own.add(&table.pair(kind, (kind + 1) % count, None));
-            }
-        }
-        own
-    }
-
-    /// A cavity by its walls as they stand to the corners of its bounds.
-    fn add_cavity<C: Cavity>(&mut self, cavity: &C) {
-        let [low, high] = cavity.bounds();
-        self.add(&(low, high, cavity.walls(), cavity.is_planar()));
-        for corner in 0..8_u32 {
-            let pick = DVec3::from_array([0, 1, 2].map(|axis| f64::from(corner >> axis & 1)));
-            for number in 0..cavity.walls() {
-                let wall = cavity.wall(number, low + (high - low) * pick);
-                self.add(&(wall.normal, wall.distance));
-            }
+/// Adds a cavity by its walls as they stand to the corners of its bounds.
+fn add_cavity<C: Cavity>(digest: &mut Digest, cavity: &C) {
+    let [low, high] = cavity.bounds();
+    digest.vectors(&[low, high]);
+    digest.words(&[cavity.walls(), u32::from(cavity.is_planar())]);
+    for corner in 0..8_u32 {
+        let pick = DVec3::from_array([0, 1, 2].map(|axis| f64::from(corner >> axis & 1)));
+        for number in 0..cavity.walls() {
+            let wall = cavity.wall(number, low + (high - low) * pick);
+            digest.vector(wall.normal);
+            digest.number(wall.distance);
         }
     }
 }

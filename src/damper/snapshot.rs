@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::Damper;
 use super::candidates::Remembered;
 use super::clock::Clock;
+use super::digest::Digest;
 use super::engine::{Engine, MountState};
 use super::error::StepError;
 use super::scene::WallLoad;
@@ -12,7 +13,7 @@ use super::setup::Setup;
 use crate::cavity::Cavity;
 use crate::detector::Detector;
 use crate::integrator::Integrator;
-use crate::law::{ContactLaw, Memory as MemoryOf};
+use crate::law::{ContactLaw, ContactMemory, LawKind};
 use crate::mount::{Motion, Mount};
 
 /// Number of the layout of [`Snapshot`], which changes with it.
@@ -22,8 +23,9 @@ const VERSION: u32 = 1;
 /// A damper that is restored from it goes on to the same bits.
 ///
 /// With the feature `serde` it can be written and read, in any format that keeps every bit of an
-/// `f64` (JSON does with `serde_json`'s `float_roundtrip`). It carries the number of its layout and
-/// a fingerprint of the setup: particles, cavities, law, time step, gravity, and how the mount yields.
+/// `f64` (JSON does with `serde_json`'s `float_roundtrip`); it carries a digest of itself, and one that was
+/// changed on the way is refused. It carries the number of its layout and a fingerprint of the setup, made
+/// from how the parts behave: particles, cavities, law, time step, gravity, and how the mount yields.
 /// What drives the mount, the integrator and the detector are free to differ, so that a settled bed
 /// can be the start of many runs; to go on to the same bits, keep excitation and integrator.
 ///
@@ -46,6 +48,7 @@ const VERSION: u32 = 1;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Snapshot<Memory> {
     version: u32,
+    digest: Digest,
     setup: Setup,
     clock: Clock,
     since_sort: u32,
@@ -97,6 +100,12 @@ pub enum RestoreError {
         /// What is wrong in it.
         quantity: &'static str,
     },
+    /// The snapshot is not what was taken: it was changed on the way, by a format that does not keep every
+    /// bit of a number, for instance.
+    #[error(
+        "the snapshot was changed on the way: its digest does not fit (a text format has to keep every bit of a number, serde_json with `float_roundtrip`)"
+    )]
+    Changed,
     /// The contacts cannot be taken up again. The damper has to be restored from another snapshot.
     #[error(transparent)]
     State(#[from] StepError),
@@ -131,6 +140,50 @@ impl<Memory> Snapshot<Memory> {
         self.clock.time()
     }
 
+    /// The digest that it carries.
+    pub(crate) const fn own_digest(&self) -> Digest {
+        self.digest
+    }
+
+    /// The digest of everything, contacts as `law` tells what they remember.
+    fn digest<L>(&self, law: &L) -> Digest
+    where
+        L: ContactLaw,
+        L::Kind: LawKind<L, Memory = Memory>,
+    {
+        let mut digest = Digest::default();
+        digest.words(&[self.version, self.since_sort]);
+        self.setup.add_to(&mut digest);
+        self.clock.add_to(&mut digest);
+        digest.words(&self.species);
+        digest.words(&self.number);
+        for column in [
+            &self.position,
+            &self.velocity,
+            &self.spin,
+            &self.acceleration,
+            &self.angular_acceleration,
+            &self.loads,
+        ] {
+            digest.vectors(column);
+        }
+        let mount = &self.mount;
+        for column in [&mount.position, &mount.velocity, &mount.acceleration] {
+            digest.numbers(column);
+        }
+        for container in &self.containers {
+            digest.vectors(&[container.position, container.velocity]);
+        }
+        for load in &self.wall_loads {
+            digest.vectors(&[load.force, load.torque]);
+        }
+        for contact in self.memory.iter().flatten() {
+            digest.words(&[contact.first, contact.second]);
+            L::Kind::tell_memory(law, &contact.memory, &mut |number| digest.number(number));
+        }
+        digest
+    }
+
     /// Refuses what does not fit into `engine`, and what cannot be.
     fn check<C, L, M, D>(
         &self,
@@ -140,6 +193,7 @@ impl<Memory> Snapshot<Memory> {
     where
         C: Cavity,
         L: ContactLaw,
+        L::Kind: LawKind<L, Memory = Memory>,
         M: Mount,
         D: Detector,
     {
@@ -181,7 +235,11 @@ impl<Memory> Snapshot<Memory> {
         RestoreError::sound("wall loads", self.wall_loads.iter().all(loaded))?;
         RestoreError::sound("loads", self.loads.iter().all(|load| load.is_finite()))?;
         self.check_numbers(engine)?;
-        self.check_memory(count, engine.wall_loads.len())
+        self.check_memory(count, engine.wall_loads.len())?;
+        if self.digest(&engine.world.law) != self.digest {
+            return Err(RestoreError::Changed);
+        }
+        Ok(())
     }
 
     /// Refuses numbers that are not each particle's once, in a slot of its own cavity.
@@ -233,11 +291,12 @@ where
 {
     /// The state of the damper.
     #[must_use]
-    pub fn snapshot(&self) -> Snapshot<MemoryOf<L>> {
+    pub fn snapshot(&self) -> Snapshot<ContactMemory<L>> {
         let engine = &self.engine;
         let particles = &engine.particles;
-        Snapshot {
+        let mut snapshot = Snapshot {
             version: VERSION,
+            digest: Digest::default(),
             setup: self.setup,
             clock: self.clock,
             since_sort: engine.since_sort,
@@ -253,14 +312,16 @@ where
             wall_loads: engine.wall_loads.clone(),
             loads: engine.loads.clone(),
             memory: engine.remembered(),
-        }
+        };
+        snapshot.digest = snapshot.digest(&engine.world.law);
+        snapshot
     }
 
     /// Puts the damper into the state of `snapshot`, from which it goes on to the same bits.
     ///
     /// # Errors
     /// If the snapshot is of another version or setup, or is damaged; the damper is then as before.
-    pub fn restore(&mut self, snapshot: &Snapshot<MemoryOf<L>>) -> Result<(), RestoreError> {
+    pub fn restore(&mut self, snapshot: &Snapshot<ContactMemory<L>>) -> Result<(), RestoreError> {
         if snapshot.version != VERSION {
             return Err(RestoreError::Version {
                 expected: VERSION,

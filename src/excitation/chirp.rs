@@ -72,7 +72,7 @@ impl Chirp {
             Bound::Positive.check("frequency (Hz)", frequency)?;
         }
         let mut sweep = Self::linear(amplitude, frequencies, duration)?;
-        let growth = (frequencies[1].ln() - frequencies[0].ln()) / duration;
+        let growth = (libm::log(frequencies[1]) - libm::log(frequencies[0])) / duration;
         if growth.abs() > 0.0 {
             sweep.course = Course::Logarithmic { growth };
         }
@@ -86,7 +86,7 @@ impl Chirp {
         let elapsed = time.clamp(0.0, self.duration);
         match self.course {
             Course::Linear => first + (last - first) * (elapsed / self.duration),
-            Course::Logarithmic { growth } => first * (growth * elapsed).exp(),
+            Course::Logarithmic { growth } => first * libm::exp(growth * elapsed),
         }
     }
 
@@ -97,7 +97,7 @@ impl Chirp {
         let elapsed = time.clamp(0.0, self.duration);
         let turns = match self.course {
             Course::Linear => elapsed * (first + (last - first) * (0.5 * elapsed / self.duration)),
-            Course::Logarithmic { growth } => first * ((growth * elapsed).exp_m1() / growth),
+            Course::Logarithmic { growth } => first * (libm::expm1(growth * elapsed) / growth),
         };
         let dwell = time.min(0.0) * first + (time - self.duration).max(0.0) * last;
         TAU * (turns + dwell)
@@ -110,14 +110,18 @@ impl Signal for Chirp {
         let phase = self.phase(time);
         let rate = TAU * self.frequency(time);
         [
-            self.amplitude * phase.sin(),
-            self.amplitude * rate * phase.cos(),
+            self.amplitude * libm::sin(phase),
+            self.amplitude * rate * libm::cos(phase),
         ]
     }
 
     #[inline]
     fn value(&self, time: f64) -> f64 {
-        self.amplitude * self.phase(time).sin()
+        self.amplitude * libm::sin(self.phase(time))
+    }
+
+    fn shortest_feature(&self) -> f64 {
+        0.5 / self.frequencies[0].max(self.frequencies[1])
     }
 }
 

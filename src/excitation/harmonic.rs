@@ -1,4 +1,4 @@
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::Signal;
 use crate::error::{Bound, ValueError};
@@ -39,14 +39,18 @@ impl Signal for Harmonic {
     fn at(&self, time: f64) -> [f64; 2] {
         let angle = self.angular_frequency * time + self.phase;
         [
-            self.amplitude * angle.sin(),
-            self.amplitude * self.angular_frequency * angle.cos(),
+            self.amplitude * libm::sin(angle),
+            self.amplitude * self.angular_frequency * libm::cos(angle),
         ]
     }
 
     #[inline]
     fn value(&self, time: f64) -> f64 {
-        self.amplitude * (self.angular_frequency * time + self.phase).sin()
+        self.amplitude * libm::sin(self.angular_frequency * time + self.phase)
+    }
+
+    fn shortest_feature(&self) -> f64 {
+        PI / self.angular_frequency
     }
 }
 

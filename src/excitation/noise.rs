@@ -1,4 +1,4 @@
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::Signal;
 use crate::error::{Bound, ValueError};
@@ -11,8 +11,7 @@ use crate::random::Random;
 /// `f_i` is uniform in the i-th of them, so that the noise does not repeat itself, and `phi_i` is
 /// uniform in a turn. The RMS is that of a long time, many times n over the width of the band.
 ///
-/// One value costs n sines. The same seed gives the same `f_i` and `phi_i` to the bit everywhere; the
-/// sines are those of the platform.
+/// One value costs n sines. The same seed gives the same noise to the bit everywhere.
 ///
 /// ```
 /// use particle_damper::excitation::{BandLimitedNoise, Signal};
@@ -58,8 +57,8 @@ impl Signal for BandLimitedNoise {
         let (mut value, mut rate) = (0.0, 0.0);
         for [omega, phase] in &self.components {
             let angle = omega * time + phase;
-            value += angle.sin();
-            rate += omega * angle.cos();
+            value += libm::sin(angle);
+            rate += omega * libm::cos(angle);
         }
         [self.amplitude * value, self.amplitude * rate]
     }
@@ -67,9 +66,14 @@ impl Signal for BandLimitedNoise {
     fn value(&self, time: f64) -> f64 {
         let mut value = 0.0;
         for [omega, phase] in &self.components {
-            value += (omega * time + phase).sin();
+            value += libm::sin(omega * time + phase);
         }
         self.amplitude * value
+    }
+
+    fn shortest_feature(&self) -> f64 {
+        let omega = self.components.iter().map(|[omega, _]| *omega);
+        PI / omega.fold(0.0, f64::max)
     }
 }
 

@@ -1,3 +1,14 @@
+/// A jump of a signal, of its value or of its rate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Jump {
+    /// When it jumps, s.
+    pub time: f64,
+    /// By how much the value does.
+    pub value: f64,
+    /// By how much the rate does, per second.
+    pub rate: f64,
+}
+
 /// A function of time with its rate: a force, the displacement of a base.
 ///
 /// # Using
@@ -9,6 +20,7 @@
 /// 1. [`at`](Self::at) is defined and finite at every finite time, negative ones included.
 /// 2. The rate is the derivative of the value, wherever that exists.
 /// 3. [`value`](Self::value), if written again to save the rate, gives the same bits as `at`.
+/// 4. [`shortest_feature`](Self::shortest_feature) and [`jump`](Self::jump) tell a damper what to refuse.
 ///
 /// A half-sine shock:
 /// ```
@@ -29,6 +41,9 @@
 ///         let (sin, cos) = (omega * time).sin_cos();
 ///         [self.peak * sin, self.peak * omega * cos]
 ///     }
+///     fn shortest_feature(&self) -> f64 {
+///         self.duration
+///     }
 /// }
 /// let shock = Shock { peak: 30.0, duration: 0.01 };
 /// assert!((shock.value(0.005) - 30.0).abs() < 1e-12);
@@ -41,6 +56,17 @@ pub trait Signal {
     #[inline]
     fn value(&self, time: f64) -> f64 {
         self.at(time)[0]
+    }
+
+    /// How long the shortest rise and fall of the value takes, s: of a sine half a period. Infinite unless
+    /// stated.
+    fn shortest_feature(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    /// A jump that nobody asked for by name, which the motion of a base cannot have. None unless stated.
+    fn jump(&self) -> Option<Jump> {
+        None
     }
 }
 

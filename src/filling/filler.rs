@@ -142,7 +142,14 @@ impl<C: Cavity + ?Sized> Filler<'_, C> {
             .then_some(place)
     }
 
-    fn off_walls(&self, mut place: DVec3, radius: f64) -> Option<DVec3> {
+    /// `place` with a gap to all walls, or else, where a particle fits exactly, pressed into them by no more
+    /// than the gap would be.
+    fn off_walls(&self, place: DVec3, radius: f64) -> Option<DVec3> {
+        self.clear_of_walls(place, radius)
+            .or_else(|| self.clear_of_walls(place, radius * (1.0 - 2.0 * GAP)))
+    }
+
+    fn clear_of_walls(&self, mut place: DVec3, radius: f64) -> Option<DVec3> {
         const TRIES: usize = 8;
         for _ in 0..TRIES {
             let nearest = (0..self.cavity.walls())

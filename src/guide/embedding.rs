@@ -33,13 +33,27 @@
 //! - **Sub-steps** are the damper's own affair: the interval is cut so that no step is longer than its
 //!   [time step](crate::Builder::time_step). Between its ends the container follows the cubic that has
 //!   both motions.
+//! - **A clock**: hand in an interval, or the time at its end
+//!   ([`drive_to`](crate::Damper::drive_to), from [`start_time`](crate::Builder::start_time) on). A
+//!   difference of two times up to 1e7 s counts as the multiple of the time step that it was meant to be.
 //! - **Where it starts**: `.mount(Driven::at(motion))`, else at the origin and at rest. Gravity is the
 //!   damper's: the particles' weight comes back as part of the impulse.
 //! - **Several cavities, or a structure with equations of its own**: a [`Mount`](crate::Mount) of your
 //!   own is solved together with the particles, without any coupling interval; see `examples/beam.rs`.
 //!
+//! # A host lighter than its bed
+//! The loop above moves through an interval with the impulse of the one before. Particles of mass m that
+//! ride along answer an acceleration with -m times it, so that a structure of mass M (whatever moves with
+//! the container, in the direction in question) gets -m/M of its last acceleration back: **it diverges, at
+//! any interval, unless m < M**, and it rings where m comes near M. A heavier bed needs a host that iterates
+//! within the interval, as follows, or a [`Mount`](crate::Mount) that is solved together with the bed.
+//!
 //! # A step back
-//! A host that iterates, or whose solver rejects steps, takes a snapshot before and restores it:
+//! A host that iterates, or whose solver rejects steps, takes a snapshot before and restores it. The
+//! impulse it supposes is corrected by a part of what it is off, 1 / (1 + m/M) at first, and then by what
+//! the last two tries suggest (Aitken's relaxation; Kuettler & Wall 2008, doi 10.1007/s00466-008-0255-5).
+//! That converges up to m/M = 20 and beyond. A bed of impacts may have no answer that fits: an interval in
+//! which no try was accepted is taken again in halves, and one that cannot be is a failure.
 //!
 //! ```
 //! # use particle_damper::glam::DVec3;
@@ -48,25 +62,37 @@
 //! # let mut damper = Damper::builder(Slot::paper(), HertzTsuji::new(Material::acrylic()))
 //! #     .particles(grains)
 //! #     .build()?;
-//! let (mass, stiffness, interval) = (0.086, 123.4, 1e-3);
-//! let (mut x, mut v) = (0.0, 0.2);
-//! for _ in 0..20 {
+//! let (mass, bed, stiffness) = (1e-4, 2e-3, 3.0);
+//! let (mut x, mut v, mut impulse) = (0.0, 0.2, 0.0);
+//! let mut interval = 1e-3_f64;
+//! while damper.time() < 0.02 {
 //!     let before = damper.snapshot();
-//!     let mut impulse = 0.0;
-//!     for _ in 0..10 {
+//!     let (least, mut last) = (0.5 * mass / (mass + bed), None);
+//!     let mut relaxation = 2.0 * least;
+//!     let mut accepted = false;
+//!     for _ in 0..20 {
 //!         // The trapezoidal rule, solved for the end under the impulse supposed.
 //!         let q = 0.25 * stiffness * interval * interval / mass;
 //!         let end_v = (v * (1.0 - q) + (impulse - stiffness * x * interval) / mass) / (1.0 + q);
 //!         let end_x = x + 0.5 * interval * (v + end_v);
 //!         let end = Motion { position: DVec3::Y * end_x, velocity: DVec3::Y * end_v };
-//!         let found = damper.drive(end, interval)?.impulse.y;
-//!         let change = (found - impulse) / mass;
-//!         impulse = found;
-//!         if change.abs() < 1e-6 {
+//!         let error = damper.drive(end, interval)?.impulse.y - impulse;
+//!         accepted = error.abs() < 1e-6 * (mass + bed);
+//!         if accepted {
 //!             (x, v) = (end_x, end_v);
 //!             break;
 //!         }
 //!         damper.restore(&before)?;
+//!         if let Some(last) = last {
+//!             let suggested: f64 = relaxation * last / (last - error);
+//!             relaxation = suggested.clamp(least, 1.0);
+//!         }
+//!         last = Some(error);
+//!         impulse += relaxation * error;
+//!     }
+//!     interval = if accepted { (2.0 * interval).min(1e-3) } else { 0.5 * interval };
+//!     if interval < 1e-5 {
+//!         return Err("host and bed do not agree".into());
 //!     }
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -74,6 +100,9 @@
 //!
 //! `examples/ode-host` does so under a solver that chooses its own steps, `examples/rapier-host` needs
 //! no way back. After an error ([`StepError`](crate::StepError)) a snapshot is the way on, too.
+//!
+//! A session that went wrong fits in one file: drive a [`Recorded`](crate::Recorded) damper, and write its
+//! [`Recording`](crate::Recording). It is played again with the bits that it had, steps taken back included.
 //!
 //! # How long an interval
 //! The host moves through an interval h with the impulse of the one before: the reaction is late. The

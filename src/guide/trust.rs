@@ -73,7 +73,20 @@
 //!
 //! What the crate itself is checked against, with sources and tolerances: `tests/validation/`. Which
 //! bits stay the same: same inputs, same bits, whatever the detector, the number of threads, and
-//! whether a run was interrupted by a [`Snapshot`](crate::Snapshot).
+//! whether a run was interrupted by a [`Snapshot`](crate::Snapshot); and on every platform whose `f64` is
+//! that of IEEE 754 (not 32-bit x86 without SSE2), as the sines and powers come from the `libm` crate and
+//! nothing is fused. Laws, excitations and hosts of one's own have to do likewise.
+//!
+//! # What is refused, and what is not
+//! A step that a law, a mount or an excitation cannot bear is refused when a damper is built, and so is a
+//! base that jumps. A step is an error if a container leaves the course that it began it with by half a
+//! radius, if a [prescribed](crate::Prescribed) velocity is not the rate of its position, and if a
+//! particle is out of its cavity or deep in another; the error says what may [lie behind](crate::Cause) it.
+//!
+//! Taken on trust are a closure and a mount of one's own that state nothing of themselves
+//! ([`Featured`](crate::excitation::Featured), [`Mount::highest_frequency`](crate::Mount::highest_frequency)),
+//! and the velocity that a host hands in. Particles that are some times faster than the law is set up for
+//! are named only once they do harm.
 //!
 //! What it leaves out: particles are spheres, containers translate and do not turn, air and electric
 //! charge have no effect, and walls do not wear.

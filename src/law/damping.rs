@@ -67,8 +67,10 @@ impl Damping {
     /// # }
     /// ```
     pub fn number(self, restitution: f64, ending: Ending) -> Result<f64, ValueError> {
-        let restitution = Bound::Within(Self::LEAST_RESTITUTION, 1.0)
-            .check("restitution under a strict contact law", restitution)?;
+        let restitution = Bound::Within(Self::LEAST_RESTITUTION, 1.0).check(
+            "restitution under a strict contact law (RestitutionImpulse takes any)",
+            restitution,
+        )?;
         Ok(match self {
             Self::Viscoelastic => viscoelastic::number(restitution, ending),
             Self::Tsuji => tsuji::number(restitution, ending),
@@ -81,7 +83,7 @@ impl Damping {
     pub fn coefficient(self, number: f64, impact: &ElasticImpact) -> f64 {
         let (k, m, v) = (impact.stiffness(), impact.effective_mass(), impact.speed());
         match self {
-            Self::Viscoelastic => number * (m * m * k * k * k / v).powf(0.2),
+            Self::Viscoelastic => number * libm::pow(m * m * k * k * k / v, 0.2),
             Self::Tsuji => number * (m * k).sqrt(),
         }
     }
@@ -99,8 +101,8 @@ impl Damping {
     pub(super) fn greatest_rate(self, coefficient: f64, impact: &ElasticImpact) -> f64 {
         let stops_at = 1.0 / (coefficient / (impact.effective_mass() * impact.speed()));
         let depth = match self {
-            Self::Viscoelastic => (1.5 * stops_at).cbrt().min(impact.overlap().sqrt()),
-            Self::Tsuji => (1.25 * stops_at).powf(0.2).min(impact.overlap().powf(0.25)),
+            Self::Viscoelastic => libm::cbrt(1.5 * stops_at).min(impact.overlap().sqrt()),
+            Self::Tsuji => libm::pow(1.25 * stops_at, 0.2).min(impact.overlap().sqrt().sqrt()),
         };
         coefficient * depth / impact.effective_mass()
     }
@@ -165,7 +167,7 @@ mod tests {
             .unwrap_err();
         assert_eq!(
             refused.to_string(),
-            "restitution under a strict contact law must lie in [0.001, 1], not 0"
+            "restitution under a strict contact law (RestitutionImpulse takes any) must lie in [0.001, 1], not 0"
         );
         assert!(
             Damping::Viscoelastic

@@ -102,6 +102,11 @@ pub trait ForceLaw: ContactLaw<Kind = Forces> {
         )
     }
 
+    /// Tells every number that a contact remembers, for the digest by which a
+    /// [`Snapshot`](crate::Snapshot) finds out that it was changed on the way. What is not told may change
+    /// unnoticed; nothing is unless set.
+    fn tell_memory(&self, _memory: &Self::Memory, _tell: &mut dyn FnMut(f64)) {}
+
     /// What the contact holds and can give back, with what it remembers at the end of the step.
     fn stored(
         &self,
@@ -158,6 +163,10 @@ macro_rules! forward_law {
                 edge: &Edge,
             ) -> (ContactForce, Self::Memory) {
                 (**self).at_edge(coefficients, contact, memory, edge)
+            }
+
+            fn tell_memory(&self, memory: &Self::Memory, tell: &mut dyn FnMut(f64)) {
+                (**self).tell_memory(memory, tell);
             }
 
             fn stored(

@@ -63,19 +63,22 @@ impl ElasticImpact {
 
     /// Length scale (m* v^2/k)^(2/5) of the impact, in m.
     pub(super) fn length(&self) -> f64 {
-        (self.effective_mass * self.speed * self.speed / self.stiffness).powf(0.4)
+        libm::pow(
+            self.effective_mass * self.speed * self.speed / self.stiffness,
+            0.4,
+        )
     }
 
     /// Greatest overlap (5 m* v^2/(4 k))^(2/5) in m.
     #[must_use]
     pub fn overlap(&self) -> f64 {
-        1.25_f64.powf(0.4) * self.length()
+        libm::pow(1.25, 0.4) * self.length()
     }
 
     /// Greatest force k d^(3/2) in N.
     #[must_use]
     pub fn force(&self) -> f64 {
-        self.stiffness * self.overlap().powf(1.5)
+        self.stiffness * self.overlap() * self.overlap().sqrt()
     }
 
     /// Contact duration T = 2.9432752 d/v = 3.2180655 (m*^2/(k^2 v))^(1/5) in s. It falls slowly

@@ -2,6 +2,7 @@ use glam::DVec3;
 
 use super::friction::{PART_PER_STEP, Rolling, SLIP_MOBILITY, share};
 use super::normal::{Normal, NormalCoefficients, NormalForce, strict_law};
+use super::turn::turned;
 use super::{ContactLaw, ForceLaw, Forces, LawError, at_least, at_most};
 use crate::contact::{Bodies, Contact, ContactForce, Edge, Stored};
 use crate::error::{Bound, ValueError};
@@ -110,8 +111,7 @@ impl HertzMindlin {
         let kept = at_most(normal.root / memory.root, 1.0);
         // The trapezoidal rule. A contact that begins has slipped for half of the step on average.
         let gain = coefficients.shear * normal.root * (0.5 * dt);
-        let before = memory.load * kept + (memory.slip + slip) * gain;
-        let load = before - before.dot(contact.normal) * contact.normal;
+        let load = turned(memory.load * kept + memory.slip * gain, contact) + slip * gain;
 
         let bearable = coefficients.stop * (1.0 / dt);
         let damping = slip * at_most(self.damping_ratio * normal.resistance, bearable);
@@ -150,6 +150,10 @@ impl ContactLaw for HertzMindlin {
             rolling: Rolling::new(bodies, &interaction),
             longest: longest.min(GREATEST_TURN / frequency),
         })
+    }
+
+    fn design_speed(&self) -> f64 {
+        self.normal.reference_speed()
     }
 
     fn time_step_limit(&self, coefficients: &Coefficients) -> f64 {
@@ -239,6 +243,14 @@ impl ForceLaw for HertzMindlin {
             0.0
         };
         NormalForce::stored(&coefficients.normal, contact, stretched)
+    }
+
+    fn tell_memory(&self, memory: &TangentialSpring, tell: &mut dyn FnMut(f64)) {
+        let [load, slip] = [memory.load, memory.slip].map(|vector| vector.to_array());
+        load.into_iter()
+            .chain(slip)
+            .chain([memory.root])
+            .for_each(tell);
     }
 }
 

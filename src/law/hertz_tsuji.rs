@@ -115,6 +115,10 @@ impl ContactLaw for HertzTsuji {
         })
     }
 
+    fn design_speed(&self) -> f64 {
+        self.normal.reference_speed()
+    }
+
     fn time_step_limit(&self, coefficients: &Coefficients) -> f64 {
         coefficients.longest
     }

@@ -28,6 +28,10 @@ pub trait LawKind<L: ?Sized>: sealed::Sealed {
     /// Whether contact forces hold over a step.
     const HELD: bool;
 
+    /// Tells every number of a memory, as far as the law does.
+    #[doc(hidden)]
+    fn tell_memory(law: &L, memory: &Self::Memory, tell: &mut dyn FnMut(f64));
+
     /// Takes a law of this kind to the method for it.
     #[doc(hidden)]
     fn accept<V: LawVisitor<L>>(visitor: V) -> V::Output;
@@ -54,6 +58,10 @@ impl<L: ForceLaw + ?Sized> LawKind<L> for Forces {
 
     const HELD: bool = false;
 
+    fn tell_memory(law: &L, memory: &Self::Memory, tell: &mut dyn FnMut(f64)) {
+        law.tell_memory(memory, tell);
+    }
+
     fn accept<V: LawVisitor<L>>(visitor: V) -> V::Output {
         visitor.forces()
     }
@@ -64,10 +72,15 @@ impl<L: ImpulseLaw + ?Sized> LawKind<L> for Impulses {
 
     const HELD: bool = true;
 
+    fn tell_memory(_law: &L, memory: &Self::Memory, tell: &mut dyn FnMut(f64)) {
+        memory.tell(tell);
+    }
+
     fn accept<V: LawVisitor<L>>(visitor: V) -> V::Output {
         visitor.impulses()
     }
 }
 
-/// What contacts under the law `L` remember from step to step.
-pub(crate) type Memory<L> = <<L as ContactLaw>::Kind as LawKind<L>>::Memory;
+/// What contacts under the law `L` remember from step to step: what a [`Snapshot`](crate::Snapshot) of its
+/// damper holds.
+pub type ContactMemory<L> = <<L as ContactLaw>::Kind as LawKind<L>>::Memory;

@@ -30,7 +30,7 @@ const ROUNDING: f64 = 1e-6;
 /// oscillation `quickness` times as fast as the contact's own.
 fn fewest_steps(restitution: f64, quickness: f64) -> f64 {
     let loss = 1.0 - restitution * restitution;
-    (quickness * (GAIN / loss).cbrt()).clamp(FEWEST_STEPS, ELASTIC_STEPS)
+    (quickness * libm::cbrt(GAIN / loss)).clamp(FEWEST_STEPS, ELASTIC_STEPS)
 }
 
 /// Hertz's spring with damping, for a table of materials.
@@ -145,6 +145,11 @@ impl NormalForce {
             bodies.effective_mass(),
             speed,
         )?)
+    }
+
+    /// Impact speed (m/s) at which restitution is met.
+    pub(super) const fn reference_speed(&self) -> f64 {
+        self.reference_speed
     }
 
     /// The elastic impact of two bodies at the reference speed.

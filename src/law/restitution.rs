@@ -151,6 +151,10 @@ impl ContactLaw for RestitutionImpulse {
         })
     }
 
+    fn design_speed(&self) -> f64 {
+        self.reference_speed
+    }
+
     fn time_step_limit(&self, own: &Self::Coefficients) -> f64 {
         own.longest
     }

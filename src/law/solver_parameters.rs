@@ -101,6 +101,34 @@ impl SolverParameters {
         self
     }
 
+    /// Tells every number.
+    pub(crate) fn tell(&self, tell: &mut dyn FnMut(f64)) {
+        let Self {
+            sweeps,
+            order,
+            restitution_threshold,
+            position_correction,
+            slop,
+            warm_start,
+            prediction,
+            energy_bound,
+        } = *self;
+        let simultaneous = order == SweepOrder::Simultaneous;
+        let flags = [
+            f64::from(sweeps),
+            f64::from(simultaneous),
+            f64::from(energy_bound),
+        ];
+        let numbers = [
+            restitution_threshold,
+            position_correction,
+            slop,
+            warm_start,
+            prediction,
+        ];
+        flags.into_iter().chain(numbers).for_each(tell);
+    }
+
     /// Refuses numbers that are out of range: the fields can be set without asking.
     pub(crate) fn check(&self) -> Result<(), ValueError> {
         Bound::AtLeast(1.0).check("sweeps of the contact solver", f64::from(self.sweeps))?;

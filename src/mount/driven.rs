@@ -26,6 +26,16 @@ impl Driven {
         }
     }
 
+    /// A course from `from` to `to` within `duration` (s).
+    pub(crate) const fn between(from: Motion, to: Motion, duration: f64) -> Self {
+        Self {
+            begin: 0.0,
+            duration,
+            from,
+            to,
+        }
+    }
+
     /// Heads from `from` at `begin` for `to` at `begin + duration`.
     pub(crate) const fn head_for(&mut self, begin: f64, duration: f64, from: Motion, to: Motion) {
         *self = Self {
@@ -35,19 +45,16 @@ impl Driven {
             to,
         };
     }
-}
 
-impl Mount for Driven {
+    /// The motion when the part `s` of the course is behind: the cubic Hermite, written around the
+    /// straight line so that a steady motion is exact.
     #[inline]
-    fn motion(&self, time: f64, _x: &[f64], _v: &[f64], _cavity: usize) -> Motion {
-        let h = self.duration;
-        // The very end to the bit, so that a damper that is restored starts from the same.
-        if self.begin + h - time <= ROUNDING * h {
+    pub(crate) fn at_part(&self, s: f64) -> Motion {
+        if s >= 1.0 {
             return self.to;
         }
-        let s = ((time - self.begin) / h).clamp(0.0, 1.0);
+        let h = self.duration;
         let step = self.to.position - self.from.position;
-        // Cubic Hermite, written around the straight line so that a steady motion is exact.
         let excess_from = self.from.velocity * h - step;
         let excess_to = self.to.velocity * h - step;
         let bend = excess_from * (s * (1.0 - s) * (1.0 - s)) - excess_to * (s * s * (1.0 - s));
@@ -56,6 +63,19 @@ impl Mount for Driven {
             position: self.from.position + step * s + bend,
             velocity: (step + slope) / h,
         }
+    }
+}
+
+impl Mount for Driven {
+    #[inline]
+    fn motion(&self, time: f64, _x: &[f64], _v: &[f64], _cavity: usize) -> Motion {
+        let h = self.duration;
+        // The very end to the bit, so that a damper that is restored starts from the same.
+        let rounding = ROUNDING * h + 4.0 * f64::EPSILON * time.abs();
+        if self.begin + h - time <= rounding {
+            return self.to;
+        }
+        self.at_part(((time - self.begin) / h).clamp(0.0, 1.0))
     }
 
     fn resume(&mut self, motions: &[Motion]) {

@@ -1,8 +1,10 @@
+use std::f64::consts::TAU;
+
 use glam::DVec3;
 
 use super::{Motion, Mount, MountEnergy};
 use crate::error::{Bound, ValueError};
-use crate::excitation::Excitation;
+use crate::excitation::{Excitation, Jump};
 
 /// The paper's primary system, Eq. (1): M x" + C x' + K x = f_d + f_p, with the container moving by
 /// x along one axis, y (up) unless said otherwise.
@@ -150,5 +152,18 @@ impl<E: Excitation> Mount for SingleDof<E> {
             0.5 * self.stiffness * x[0] * x[0],
         )
         .with_powers(driving * v[0], self.damping * v[0] * v[0])
+    }
+
+    fn highest_frequency(&self) -> f64 {
+        let decay = self.damping / self.mass;
+        (self.stiffness / self.mass).sqrt().max(decay) / TAU
+    }
+
+    fn shortest_feature(&self) -> f64 {
+        self.excitation.shortest_feature()
+    }
+
+    fn jump(&self) -> Option<Jump> {
+        self.excitation.jump()
     }
 }

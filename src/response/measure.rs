@@ -26,7 +26,7 @@ struct Sums {
 impl Sums {
     /// Takes up the displacement at the angle (rad) of the force.
     fn add(&mut self, displacement: f64, angle: f64) {
-        let (sine, cosine) = angle.sin_cos();
+        let (sine, cosine) = libm::sincos(angle);
         self.samples += 1;
         self.sum += displacement;
         self.squares += displacement * displacement;
@@ -35,10 +35,15 @@ impl Sums {
     }
 }
 
+/// Steps to a period at the least: ten to each half of the wave, and one for their rounding.
+const LEAST_STEPS: f64 = 21.0;
+
 /// How many steps of at most `longest` make up a period.
 fn steps_per_period(frequency: f64, longest: f64) -> Result<u64, ValueError> {
     // A hair of tolerance, so that a step that divides the period is taken as it is.
-    let steps = (1.0 / (frequency * longest) * (1.0 - 1e-9)).ceil().max(4.0);
+    let steps = (1.0 / (frequency * longest) * (1.0 - 1e-9))
+        .ceil()
+        .max(LEAST_STEPS);
     // Beyond, steps could no longer be counted exactly.
     Bound::AtMost(1e12).check("steps per period", steps)?;
     Ok(steps as u64)
@@ -119,8 +124,8 @@ where
             rms_zero: square.sqrt() / deflection,
             rms_mean: (square - mean * mean).max(0.0).sqrt() / deflection,
             mean: mean / deflection,
-            first_harmonic: sine.hypot(cosine) / deflection,
-            phase_lag: (-cosine).atan2(sine),
+            first_harmonic: libm::hypot(sine, cosine) / deflection,
+            phase_lag: libm::atan2(-cosine, sine),
             max_overlap,
             outside,
         })
@@ -170,7 +175,7 @@ mod tests {
         assert_eq!(steps_per_period(5.0, 1e-4).unwrap(), 2000);
         assert_eq!(steps_per_period(6.0, 1e-4).unwrap(), 1667);
         assert_eq!(steps_per_period(8.0, 2e-5).unwrap(), 6250);
-        assert_eq!(steps_per_period(1.0, 10.0).unwrap(), 4);
+        assert_eq!(steps_per_period(1.0, 10.0).unwrap(), 21);
         assert!(steps_per_period(1.0, 1e-15).is_err());
     }
 }

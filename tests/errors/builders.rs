@@ -162,14 +162,14 @@ fn builders_refuse_what_cannot_be() {
         &["container of cavity 0", "NaN"],
     );
 
-    let large = Particle::new(0.031, 0.1)
+    let large = Particle::new(0.034, 0.1)
         .unwrap()
         .at(dvec3(0.03, 0.04, 0.0));
     let is = |error: &BuildError| matches!(error, BuildError::TooLarge { particle: 0, .. });
     table.row(
         start().particles([large]).build(),
         is,
-        &["0.062", "0.06 m across"],
+        &["0.068", "0.06 m across"],
     );
     let is = |e: &BuildError| {
         matches!(

@@ -4,7 +4,7 @@ use super::{Block, Listing, Memories};
 use crate::cavity::Cavity;
 use crate::damper::candidates::{Remembered, make_room, pair};
 use crate::damper::scene::Scene;
-use crate::law::{ContactLaw, LawError, Memory};
+use crate::law::{ContactLaw, ContactMemory, LawError};
 
 impl<L: ContactLaw> Block<L> {
     /// Lists candidates anew, and hands over what contacts remember: what the block's own do, which goes
@@ -43,9 +43,10 @@ impl<L: ContactLaw> Block<L> {
     }
 
     /// What `memory`, in ascending order, holds of the block's contacts.
-    fn own<'a>(&self, memory: &'a Memories<L>) -> [&'a [Remembered<Memory<L>>]; 2] {
+    fn own<'a>(&self, memory: &'a Memories<L>) -> [&'a [Remembered<ContactMemory<L>>]; 2] {
         let slots = [self.slots.start as u32, self.slots.end as u32];
-        let own = |all: &'a [Remembered<Memory<L>>], slot: fn(&Remembered<Memory<L>>) -> u32| {
+        let own = |all: &'a [Remembered<ContactMemory<L>>],
+                   slot: fn(&Remembered<ContactMemory<L>>) -> u32| {
             let [start, end] = slots.map(|end| all.partition_point(|own| slot(own) < end));
             &all[start..end]
         };
@@ -102,7 +103,7 @@ impl<L: ContactLaw> Block<L> {
     }
 
     /// Makes filled lists ready for use, but for what the law has to [`prepare`](Self::prepare).
-    fn finish(&mut self, stamp: u32, [pairs, walls]: [&[Remembered<Memory<L>>]; 2]) {
+    fn finish(&mut self, stamp: u32, [pairs, walls]: [&[Remembered<ContactMemory<L>>]; 2]) {
         self.pairs.finish(stamp, pairs, pair);
         self.border.finish(stamp, pairs, pair);
         self.walls.finish(stamp, walls, |slot, wall| (slot, wall));

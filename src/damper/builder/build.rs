@@ -5,6 +5,7 @@ use glam::{DMat3, DVec3};
 use super::Builder;
 use crate::cavity::Cavity;
 use crate::damper::block::{BLOCK, memories};
+use crate::damper::cause::Begin;
 use crate::damper::clock::Clock;
 use crate::damper::coefficients::Coefficients;
 use crate::damper::contact_dynamics::ContactSolver;
@@ -50,7 +51,7 @@ where
         let particles = Particles::new(&self.particles, numbers, planar);
         let coefficients = Coefficients::new(&self.law, &particles.kinds, self.wall_material)?;
         L::Kind::accept(CheckLaw(&self.law))?;
-        let time_step = self.choose_time_step(coefficients.time_step_limit(&self.law)?)?;
+        let time_step = self.choose_time_step(&coefficients, &particles)?;
         let smallest = smallest_radius(&particles.kinds);
         let rooms = self.rooms(smallest);
         let walls = Engine::<C, L, M, D>::wall_count(&rooms);
@@ -77,7 +78,8 @@ where
                 stamp: 0,
                 time_step,
             },
-            time: 0.0,
+            time: self.start_time,
+            begin: Begin::default(),
             detections: 0,
             since_sort: 0,
             overlap_limit: self.overlap_limit * smallest,
@@ -88,7 +90,7 @@ where
             setup: Setup::new(&engine, time_step),
             engine,
             integrator: self.integrator,
-            clock: Clock::default(),
+            clock: Clock::showing(self.start_time),
             time_step,
         })
     }
@@ -100,12 +102,16 @@ where
         if let Some(time_step) = self.time_step {
             Bound::Positive.check("time step (s)", time_step)?;
         }
+        Bound::Finite.check("start time (s)", self.start_time)?;
         Bound::NonNegative.check(
             "initial overlap (fraction of a radius)",
             self.initial_overlap,
         )?;
         if self.overlap_limit.is_nan() || self.overlap_limit <= 0.0 {
             Bound::Positive.check("overlap limit (fraction of a radius)", self.overlap_limit)?;
+        }
+        if let Some(jump) = self.mount.jump() {
+            return Err(BuildError::BaseJumps(jump));
         }
         if self.cavities.iter().any(Cavity::is_planar) {
             in_plane("gravity", self.gravity)?;
@@ -147,6 +153,8 @@ where
     }
 
     fn check_particles(&self) -> Result<(), BuildError> {
+        let radii = self.particles.iter().map(|particle| particle.radius);
+        let squeeze = self.initial_overlap * radii.fold(f64::INFINITY, f64::min);
         for (number, particle) in self.particles.iter().enumerate() {
             check_particle(particle).map_err(|error| BuildError::Particle {
                 particle: number,
@@ -178,7 +186,8 @@ where
             } else {
                 extent.min_element()
             };
-            if 2.0 * particle.radius > room {
+            // Pressed into two opposite walls at once.
+            if 2.0 * particle.radius > room + 2.0 * squeeze {
                 return Err(BuildError::TooLarge {
                     particle: number,
                     diameter: 2.0 * particle.radius,
@@ -198,19 +207,6 @@ where
             .map(|number| self.particles[*number as usize])
             .collect();
         numbers
-    }
-
-    fn choose_time_step(&self, limit: f64) -> Result<f64, BuildError> {
-        match self.time_step {
-            Some(time_step) if time_step > limit => {
-                Err(BuildError::TimeStepTooLong { time_step, limit })
-            }
-            Some(time_step) => Ok(time_step),
-            None if limit.is_finite() => Ok(
-                Bound::Positive.check("time step (s), half of the law's limit,", 0.5 * limit)?
-            ),
-            None => Err(BuildError::NoTimeStep),
-        }
     }
 
     fn rooms(&mut self, smallest_radius: f64) -> Vec<Room<C>> {
@@ -301,7 +297,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// and evaluates the first accelerations.
     fn start(&mut self, allowed: f64) -> Result<(), BuildError> {
         self.check_mount()?;
-        self.place_containers(0.0)?;
+        self.place_containers(self.time)?;
         for room in &self.world.rooms {
             for slot in room.slots.clone() {
                 let position = self.particles.position.get(slot) + room.motion.position;
@@ -312,7 +308,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         self.sort();
         self.find_contacts(true)?;
         self.check_initial_overlaps(allowed)?;
-        Ok(self.evaluate(0.0, 0.0, Stage::Trial, false, &mut ())?)
+        Ok(self.evaluate(self.time, 0.0, Stage::Trial, false, &mut ())?)
     }
 
     /// Refuses a mount that loads cannot move, and one that leaves the plane of a planar cavity.

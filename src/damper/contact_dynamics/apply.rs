@@ -9,9 +9,8 @@ use crate::damper::engine::Engine;
 use crate::damper::error::StepError;
 use crate::damper::scene::WallLoad;
 use crate::damper::space::Space;
-use crate::damper::{Partner, smallest_radius};
 use crate::detector::Detector;
-use crate::law::{ContactLaw, ImpulseLaw, at_most};
+use crate::law::{ImpulseLaw, at_most};
 use crate::mount::Mount;
 
 impl<S: Space> Stages<S> {
@@ -90,31 +89,5 @@ impl<C: Cavity, L: ImpulseLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         for block in &mut self.blocks {
             keep(&mut block.walls);
         }
-    }
-}
-
-impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
-    /// Refuses particles that a container has left behind in the step: where it moves by more than a
-    /// radius, the walls that meet them are not looked at before the next.
-    pub(crate) fn check_left_behind(&self) -> Result<(), StepError> {
-        let Some(solver) = &self.solver else {
-            return Ok(());
-        };
-        let radius = smallest_radius(&self.particles.kinds);
-        for (cavity, room) in self.world.rooms.iter().enumerate() {
-            let position = room.motion.position;
-            let before = solver.origin(cavity);
-            if !self.contained || position.distance(before) <= radius {
-                continue;
-            }
-            for slot in room.slots.clone() {
-                let point = self.particles.position.get(slot) - position;
-                let outside = |wall: &u32| room.cavity.wall(*wall, point).distance < 0.0;
-                if let Some(wall) = (0..room.cavity.walls()).find(outside) {
-                    return Err(self.escaped(slot, Partner::Wall(wall)));
-                }
-            }
-        }
-        Ok(())
     }
 }

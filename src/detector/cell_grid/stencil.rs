@@ -117,8 +117,8 @@ impl Stencil {
             let lowest = if back == 0 { 0 } else { -(most_up as i32) };
             for up in lowest..=most_up as i32 {
                 let away = up.unsigned_abs();
-                let gaps = gap(back, edges[2]).powi(2) + gap(away, edges[1]).powi(2);
-                let left = reach.length.powi(2) - gaps;
+                let gaps = square(gap(back, edges[2])) + square(gap(away, edges[1]));
+                let left = square(reach.length) - gaps;
                 if left <= 0.0 {
                     continue;
                 }
@@ -163,6 +163,10 @@ impl Stencil {
     pub(super) fn boards(&self) -> &[Board] {
         &self.boards
     }
+}
+
+fn square(length: f64) -> f64 {
+    length * length
 }
 
 /// The least distance along an axis between centres that are `cells` apart.

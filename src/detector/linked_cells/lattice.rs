@@ -72,7 +72,7 @@ impl Lattice {
                 break counts;
             }
             let divided = counts.iter().filter(|&&count| count > 1.0).count();
-            edge *= 1.01 * excess.powf(1.0 / divided as f64);
+            edge *= 1.01 * libm::pow(excess, 1.0 / divided as f64);
         };
         let density = |axis: usize| {
             if counts[axis] > 1.0 {

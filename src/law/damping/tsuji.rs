@@ -13,9 +13,9 @@ fn log_never_pulling(zeta: f64) -> f64 {
     let angle_over_s = if s < 1e-6 {
         1.0 / zeta
     } else if zeta < 1.0 {
-        s.atan2(zeta) / s
+        libm::atan2(s, zeta) / s
     } else {
-        s.asinh() / s
+        libm::asinh(s) / s
     };
     -2.0 * zeta * angle_over_s
 }
@@ -24,8 +24,8 @@ fn log_never_pulling(zeta: f64) -> f64 {
 pub(super) fn restitution(alpha: f64, ending: Ending) -> f64 {
     let zeta = alpha / 5.0_f64.sqrt();
     match ending {
-        Ending::NeverPulling => log_never_pulling(zeta).exp(),
-        Ending::PullingAllowed if zeta < 1.0 => (-PI * zeta / (1.0 - zeta * zeta).sqrt()).exp(),
+        Ending::NeverPulling => libm::exp(log_never_pulling(zeta)),
+        Ending::PullingAllowed if zeta < 1.0 => libm::exp(-PI * zeta / (1.0 - zeta * zeta).sqrt()),
         Ending::PullingAllowed => 0.0,
     }
 }
@@ -35,7 +35,7 @@ pub(super) fn number(target: f64, ending: Ending) -> f64 {
     if target >= 1.0 {
         return 0.0; // Not the -0 of the forms below: its reciprocal bounds the time step.
     }
-    let log = target.ln();
+    let log = libm::log(target);
     let zeta = match ending {
         Ending::PullingAllowed => -log / (PI * PI + log * log).sqrt(),
         Ending::NeverPulling => root(|zeta| log_never_pulling(zeta) - log),

@@ -40,7 +40,7 @@ impl Series {
         let scale = self.w[0].abs().max(self.q[0] * self.q[0] / (1.0 + beta));
         (ORDER - 5..=ORDER)
             .flat_map(|n| [(n, self.q[n]), (n, self.w[n])])
-            .map(|(n, term)| (1e-17 * scale / term.abs()).powf(1.0 / n as f64))
+            .map(|(n, term)| libm::pow(1e-17 * scale / term.abs(), 1.0 / n as f64))
             .fold(f64::MAX, f64::min)
     }
 
@@ -81,7 +81,7 @@ pub(super) fn number(target: f64, ending: Ending) -> f64 {
     if target >= 1.0 {
         return 0.0;
     }
-    root(|beta| (restitution(beta, ending) / target).ln())
+    root(|beta| libm::log(restitution(beta, ending) / target))
 }
 
 #[cfg(test)]

@@ -24,12 +24,12 @@ pub(super) struct Fading {
 
 /// The ends of the span in (v/v0)^(1/10).
 fn ends() -> [f64; 2] {
-    SPAN.map(|ratio| ratio.powf(0.1))
+    SPAN.map(|ratio| libm::pow(ratio, 0.1))
 }
 
 /// Chebyshev's points of the second kind between -1 and 1.
 fn point(n: usize) -> f64 {
-    (std::f64::consts::PI * n as f64 / (POINTS - 1) as f64).cos()
+    libm::cos(std::f64::consts::PI * n as f64 / (POINTS - 1) as f64)
 }
 
 impl Fading {
@@ -52,7 +52,7 @@ impl Fading {
     /// doi 10.1137/S0036144502417715). Beyond the span it is that at its end.
     pub(super) fn at(&self, speed: f64) -> f64 {
         let [low, high] = ends();
-        let root = (speed / self.reference_speed).powf(0.1).clamp(low, high);
+        let root = libm::pow(speed / self.reference_speed, 0.1).clamp(low, high);
         let place = (2.0 * root - low - high) / (high - low);
         let (mut above, mut below) = (0.0, 0.0);
         for (n, value) in self.values.iter().enumerate() {
