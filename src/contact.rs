@@ -97,6 +97,10 @@ pub struct Contact {
     /// Time since the contact's memory was advanced, in s. For an impulse this is the length of the
     /// step over which its force is held.
     pub elapsed: f64,
+    /// Time in s by which a force, by as much as it differs from that of the evaluation before, still
+    /// changes `velocity` and `spins` to those of the instant: half of the step where an integrator
+    /// [predicts](crate::integrator::Stage::Predicted) them, zero where they are those of the instant.
+    pub correction: f64,
     /// Velocity that a wall gains per unit impulse on it, in 1/kg, as the mount says; zero if it does
     /// not yield, for a pair (the law knows its masses), and for laws that are evaluated at every
     /// stage.
@@ -116,6 +120,7 @@ impl Contact {
             fall: 0.0,
             spins: [DVec3::ZERO; 2],
             elapsed: 0.0,
+            correction: 0.0,
             mobility: DMat3::ZERO,
         }
     }

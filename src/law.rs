@@ -23,6 +23,7 @@ pub use friction::Friction;
 pub use hertz::ElasticImpact;
 pub use hertz_mindlin::{HertzMindlin, TangentialSpring};
 pub use hertz_tsuji::HertzTsuji;
+pub use normal::NormalHistory;
 
 /// The greater of two numbers, `least` if either is not one. One instruction where `f64::max` takes
 /// five.

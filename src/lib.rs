@@ -136,7 +136,7 @@ pub use filling::{Filling, FillingError};
 pub use integrator::{Integrator, RungeKutta4, VelocityVerlet};
 pub use law::{
     ContactLaw, Damping, ElasticImpact, Ending, Evaluation, Friction, HertzMindlin, HertzTsuji,
-    LawError, RestingForce, RestitutionImpulse, TangentialSpring,
+    LawError, NormalHistory, RestingForce, RestitutionImpulse, TangentialSpring,
 };
 pub use material::{Interaction, Material, MaterialId, Materials};
 pub use mount::{Driven, Motion, Mount, MountEnergy, Prescribed, SingleDof};

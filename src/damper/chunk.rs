@@ -73,6 +73,8 @@ impl Lanes {
 pub(crate) struct Moment {
     /// Time since memories were advanced, s.
     pub(crate) elapsed: f64,
+    /// Time by which a change of the forces still changes the velocities, s.
+    pub(crate) correction: f64,
     /// Length of the step, s; zero before the first.
     pub(crate) time_step: f64,
 }
@@ -197,9 +199,9 @@ impl<L: ContactLaw> Chunk<L> {
         }
     }
 
-    /// The contact of a number, `elapsed` seconds after its memory was advanced.
+    /// The contact of a number at a moment.
     #[inline(always)]
-    pub(crate) fn contact<const PLANAR: bool>(&self, n: usize, elapsed: f64) -> Contact {
+    pub(crate) fn contact<const PLANAR: bool>(&self, n: usize, moment: Moment) -> Contact {
         let spins = self
             .spins
             .each_ref()
@@ -208,7 +210,8 @@ impl<L: ContactLaw> Chunk<L> {
         let velocity = polar::<PLANAR>(self.velocity.get(n));
         Contact {
             spins,
-            elapsed,
+            elapsed: moment.elapsed,
+            correction: moment.correction,
             ..Contact::new(normal, self.overlap[n], velocity)
         }
     }
@@ -221,19 +224,19 @@ impl<L: ContactLaw> Chunk<L> {
         law: &L,
         only: Option<&L::Coefficients>,
         kinds: impl Iterator<Item = L::Coefficients>,
-        elapsed: f64,
+        moment: Moment,
     ) {
         self.meet::<PAIRS, PLANAR>();
         if let Some(only) = only {
             if law.has_couple(only) {
-                self.answer_alike::<PAIRS, END, PLANAR, true>(law, only, elapsed);
+                self.answer_alike::<PAIRS, END, PLANAR, true>(law, only, moment);
             } else {
-                self.answer_alike::<PAIRS, END, PLANAR, false>(law, only, elapsed);
+                self.answer_alike::<PAIRS, END, PLANAR, false>(law, only, moment);
             }
         } else {
             self.kinds.clear();
             self.kinds.extend(kinds);
-            self.answer_mixed::<PAIRS, END, PLANAR>(law, elapsed);
+            self.answer_mixed::<PAIRS, END, PLANAR>(law, moment);
         }
     }
 
@@ -242,11 +245,11 @@ impl<L: ContactLaw> Chunk<L> {
         &mut self,
         law: &L,
         kind: &L::Coefficients,
-        elapsed: f64,
+        moment: Moment,
     ) {
         let kind = *kind;
         for n in 0..self.count.min(CHUNK) {
-            self.answer_one::<PAIRS, END, PLANAR, COUPLE>(law, &kind, n, elapsed);
+            self.answer_one::<PAIRS, END, PLANAR, COUPLE>(law, &kind, n, moment);
         }
     }
 
@@ -254,11 +257,11 @@ impl<L: ContactLaw> Chunk<L> {
     fn answer_mixed<const PAIRS: bool, const END: bool, const PLANAR: bool>(
         &mut self,
         law: &L,
-        elapsed: f64,
+        moment: Moment,
     ) {
         for n in 0..self.kinds.len().min(CHUNK) {
             let kind = self.kinds[n];
-            self.answer_one::<PAIRS, END, PLANAR, true>(law, &kind, n, elapsed);
+            self.answer_one::<PAIRS, END, PLANAR, true>(law, &kind, n, moment);
         }
     }
 
@@ -268,9 +271,9 @@ impl<L: ContactLaw> Chunk<L> {
         law: &L,
         kind: &L::Coefficients,
         n: usize,
-        elapsed: f64,
+        moment: Moment,
     ) {
-        let contact = self.contact::<PLANAR>(n, elapsed);
+        let contact = self.contact::<PLANAR>(n, moment);
         let memory = self.memory[n];
         let answer = law.force(kind, &contact, &memory);
         if END {
@@ -326,8 +329,8 @@ impl<L: ContactLaw> Chunk<L> {
         moment: Moment,
         acceleration: DVec3,
     ) -> (Contact, ContactForce, L::Memory) {
-        let Moment { elapsed, time_step } = moment;
-        let (contact, memory) = (self.contact::<false>(n, elapsed), &self.memory[n]);
+        let time_step = moment.time_step;
+        let (contact, memory) = (self.contact::<false>(n, moment), &self.memory[n]);
         let (overlap, approach) = (contact.overlap, contact.approach_speed());
         if law.has_edges() && Edge::is_near(overlap, approach, time_step) {
             let edge = Edge::new(time_step, acceleration.dot(contact.normal));

@@ -4,10 +4,11 @@
 use glam::DVec3;
 
 use super::block::{Block, Memories, Place, block_size, room_for};
+use super::chunk::Moment;
 use super::error::StepError;
 use super::impulse::Joints;
 use super::particles::Particles;
-use super::scene::{Room, WallLoad, World};
+use super::scene::{Room, Scene, WallLoad, World};
 use super::vectors::Vectors;
 use crate::cavity::Cavity;
 use crate::detector::{Detector, Pairs};
@@ -187,11 +188,14 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Forces of a stiff law: evaluates the contacts, and turns forces into accelerations.
     fn evaluate_contacts<O: Observer, const END: bool>(
         &mut self,
-        elapsed: f64,
+        moment: Moment,
         observer: &mut O,
     ) -> Result<(), StepError> {
         let [mut force, mut torque] = std::mem::take(&mut self.scratch.previous);
-        let scene = self.world.scene(&self.particles, elapsed);
+        let scene = Scene {
+            moment,
+            ..self.world.scene(&self.particles, moment.elapsed)
+        };
         let widths = (force.width(), torque.width());
         let sums = (force.flat_mut(), torque.flat_mut());
         let gravity = self.gravity;
@@ -321,9 +325,20 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         self.place_containers(time)?;
         if self.world.law.evaluation() == Evaluation::EveryStage {
             self.find_contacts(afresh)?;
+            let moment = Moment {
+                elapsed,
+                correction: if stage == Stage::Predicted {
+                    0.5 * elapsed
+                } else {
+                    0.0
+                },
+                time_step: self.world.time_step,
+            };
             match stage {
-                Stage::Trial => self.evaluate_contacts::<(), false>(elapsed, &mut ())?,
-                Stage::End => self.evaluate_contacts::<O, true>(elapsed, observer)?,
+                Stage::Trial => self.evaluate_contacts::<(), false>(moment, &mut ())?,
+                Stage::End | Stage::Predicted => {
+                    self.evaluate_contacts::<O, true>(moment, observer)?;
+                }
             }
         }
         let previous = &mut self.scratch.previous_of_mount;

@@ -64,8 +64,11 @@ impl<C: Cavity, L: ContactLaw> World<C, L> {
             inverse_inertia: &particles.inverse_inertia,
             species: &particles.species,
             number: &particles.number,
-            elapsed,
-            time_step: self.time_step,
+            moment: Moment {
+                elapsed,
+                correction: 0.0,
+                time_step: self.time_step,
+            },
             stamp: self.stamp,
             planar: self.planar(),
         }
@@ -103,10 +106,8 @@ pub(crate) struct Scene<'a, C, L: ContactLaw> {
     pub(crate) inverse_inertia: &'a [f64],
     pub(crate) species: &'a [u32],
     pub(crate) number: &'a [u32],
-    /// Time since memories were advanced, s.
-    pub(crate) elapsed: f64,
-    /// Length of the step, s.
-    pub(crate) time_step: f64,
+    /// When in the step this is.
+    pub(crate) moment: Moment,
     /// Number of the last accepted step.
     pub(crate) stamp: u32,
     /// Whether everything moves in the plane z = 0.
@@ -188,15 +189,6 @@ impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
             velocity: self.velocity.get(slot),
             spin: self.spin.get(slot),
             radius: self.radius[slot],
-        }
-    }
-
-    /// When in the step this is.
-    #[inline(always)]
-    pub(crate) const fn moment(&self) -> Moment {
-        Moment {
-            elapsed: self.elapsed,
-            time_step: self.time_step,
         }
     }
 

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::damping::{Damping, Ending};
 use super::edge::Power;
 use super::hertz::ElasticImpact;
-use super::{LawError, at_least};
+use super::{LawError, at_least, at_most};
 use crate::contact::{Bodies, Contact, Edge, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::{Interaction, Material, MaterialId, Materials};
@@ -25,6 +25,15 @@ const ELASTIC_STEPS: f64 = 50.0;
 
 /// Relative error of an overlap against the way in a step.
 const ROUNDING: f64 = 1e-6;
+
+/// Where a contact begins, its speed falls during the step like an exponential rather than a line. Of
+/// 0, 0.1 ... 0.6 this part leaves the least mean error of restitutions from 0.3 to 0.95 at 4.5 and at
+/// 6 steps to a contact: 1.5 % and 0.5 % of the restitution, with either damping.
+const SLOWED: f64 = 0.5;
+
+/// How often the end of a pull is worked out: with three rounds the restitution is within 0.1 % of that
+/// with twenty.
+const ENDINGS: usize = 3;
 
 /// The fewest steps to a contact in which damping takes more energy than integration can add to an
 /// oscillation `quickness` times as fast as the contact's own.
@@ -54,6 +63,15 @@ pub(super) struct NormalCoefficients {
     damping: f64,
     /// 1/m* in 1/kg.
     mobility: f64,
+}
+
+/// What a contact under [`HertzTsuji`](crate::HertzTsuji) remembers: the normal force at the end of the
+/// step before. Velocities are predicted with it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct NormalHistory {
+    /// The force in N.
+    pub(super) force: f64,
 }
 
 /// The normal force at one instant, in parts.
@@ -182,8 +200,14 @@ impl NormalForce {
         Ok((coefficients, longest))
     }
 
+    /// The normal force, after one of `before` (N) at the end of the step before.
     #[inline(always)]
-    pub(super) fn at(&self, coefficients: &NormalCoefficients, contact: &Contact) -> Normal {
+    pub(super) fn at(
+        &self,
+        coefficients: &NormalCoefficients,
+        contact: &Contact,
+        before: f64,
+    ) -> Normal {
         // Rounding can leave touching bodies with an overlap of zero, or a hair less.
         let overlap = at_least(contact.overlap, f64::MIN_POSITIVE);
         let root = overlap.sqrt();
@@ -193,7 +217,9 @@ impl NormalForce {
         };
         let resistance = coefficients.damping * shape;
         let spring = coefficients.stiffness * overlap * root;
-        let force = spring + resistance * contact.approach_speed();
+        let gain = coefficients.mobility * contact.correction;
+        let speed = contact.approach_speed() + before * gain;
+        let force = (spring + resistance * speed) / (1.0 + resistance * gain);
         Normal {
             root,
             resistance,
@@ -215,9 +241,10 @@ impl NormalForce {
         &self,
         coefficients: &NormalCoefficients,
         contact: &Contact,
+        before: f64,
         edge: &Edge,
     ) -> Normal {
-        let mut normal = self.at(coefficients, contact);
+        let mut normal = self.at(coefficients, contact, before);
         let NormalCoefficients {
             stiffness,
             damping,
@@ -228,11 +255,18 @@ impl NormalForce {
         // end they may have touched in the step before, and the speed at its start is nearer.
         let back = if contact.elapsed < h { 1.0 } else { 0.5 } * contact.elapsed;
         let coming = contact.approach_speed() + back * edge.acceleration;
+        let gain = mobility * contact.correction;
+        let power = self.damping.power();
+        let sampled = |way: f64, part: f64| {
+            let spring = stiffness * Power::ThreeHalves.of(way) * Power::ThreeHalves.sampled(part);
+            (spring, damping * power.of(way) * power.sampled(part))
+        };
         let way = coming * h;
         let met = |part: f64| {
-            let power = self.damping.power();
-            let spring = stiffness * Power::ThreeHalves.of(way) * Power::ThreeHalves.sampled(part);
-            spring + damping * coming * power.of(way) * power.sampled(part)
+            let (spring, resistance) = sampled(way, part);
+            // The dashpot acts from the touch to half a step from now, with this mean.
+            let slowing = resistance * gain / (part + 0.5);
+            (spring + resistance * coming) / (1.0 + slowing / (1.0 + SLOWED * slowing))
         };
         // To within rounding, what tells whether they touched already as the step began is whether they
         // were slowed down then.
@@ -246,14 +280,27 @@ impl NormalForce {
             normal.force = met(part);
             return normal;
         }
-        // A spring ends as it sets in. Where damping ends, the force is smooth if it never pulls, and
-        // a pull slows the bodies so much that the end cannot be foretold.
-        let way = (normal.force * h * mobility - coming) * h;
-        if contact.approach_speed() < 0.0 && overlap < way {
+        // A contact ends as it sets in, but that damping fades out smoothly where it never pulls.
+        let leaving = |force: f64| force * h * mobility - coming;
+        let mut way = leaving(normal.force) * h;
+        if contact.approach_speed() > 0.0 || overlap > way {
+            return normal;
+        }
+        if self.ending == Ending::NeverPulling || gain == 0.0 {
             let part = overlap / way;
             let more = Power::ThreeHalves.sampled(part) - Power::ThreeHalves.of(part);
             let spring = stiffness * Power::ThreeHalves.of(way) * more;
             normal.force = self.ended(normal.force + spring);
+            return normal;
+        }
+        // A pull slows the bodies down, and so its end depends on the pull.
+        let speed = contact.approach_speed() + before * gain;
+        for _ in 0..ENDINGS {
+            let part = at_most(overlap / way, 1.0);
+            let (spring, resistance) = sampled(way, part);
+            let slowing = resistance * gain * (2.0 - 1.0 / (part + 0.5));
+            normal.force = (spring + resistance * speed) / (1.0 + slowing);
+            way = at_least(leaving(normal.force) * h, overlap);
         }
         normal
     }

@@ -16,6 +16,7 @@ pub(crate) mod mfix;
 pub(crate) mod oblique;
 pub(crate) mod paper_system;
 pub(crate) mod rest;
+pub(crate) mod restitution;
 
 use case::Case;
 
@@ -40,6 +41,7 @@ pub(crate) const FAMILIES: &[Family] = &[
     ("inelastic", inelastic::cases),
     ("paper_system", paper_system::cases),
     ("integrators", integrators::cases),
+    ("restitution", restitution::cases),
     ("energy", energy::cases),
     ("rest", rest::cases),
     ("defects", defects::cases),

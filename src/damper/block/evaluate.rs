@@ -209,10 +209,10 @@ fn answer_pairs<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
         scene.coefficients.pair(first, second, own)
     });
     let only = scene.coefficients.only_pair();
-    chunk.answer::<true, END, PLANAR>(scene.law, only, kinds, scene.elapsed);
+    chunk.answer::<true, END, PLANAR>(scene.law, only, kinds, scene.moment);
     if scene.law.has_edges() {
         let acceleration = |n: usize| acceleration_of_pair(scene, bodies[n]);
-        chunk.mend_edges::<END>(scene.law, only, scene.moment(), acceleration);
+        chunk.mend_edges::<END>(scene.law, only, scene.moment, acceleration);
     }
     if END {
         list.keep_run(run, scene.stamp.wrapping_add(1), chunk.advanced());
@@ -235,10 +235,10 @@ fn answer_walls<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
         *scene.coefficients.wall(species)
     });
     let only = scene.coefficients.only_wall();
-    chunk.answer::<false, END, PLANAR>(scene.law, only, kinds, scene.elapsed);
+    chunk.answer::<false, END, PLANAR>(scene.law, only, kinds, scene.moment);
     if scene.law.has_edges() {
         let acceleration = |n: usize| scene.acceleration.get(bodies[n][0] as usize);
-        chunk.mend_edges::<END>(scene.law, only, scene.moment(), acceleration);
+        chunk.mend_edges::<END>(scene.law, only, scene.moment, acceleration);
     }
     if END {
         list.keep_run(run, scene.stamp.wrapping_add(1), chunk.advanced());
