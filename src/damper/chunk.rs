@@ -95,6 +95,8 @@ pub(crate) struct Chunk<L: ContactLaw> {
     overlap: Column,
     /// Rate of overlap, m/s.
     approach: Column,
+    /// Of walls: velocity that they gain along the normal per unit impulse, 1/kg.
+    wall_inverse_mass: Column,
     kinds: Vec<L::Coefficients>,
     memory: [L::Memory; CHUNK],
     advanced: [L::Memory; CHUNK],
@@ -112,6 +114,7 @@ impl<L: ContactLaw> Default for Chunk<L> {
             radii: [[0.0; CHUNK]; 2],
             overlap: [0.0; CHUNK],
             approach: [0.0; CHUNK],
+            wall_inverse_mass: [0.0; CHUNK],
             kinds: Vec::with_capacity(CHUNK),
             memory: [L::Memory::default(); CHUNK],
             advanced: [L::Memory::default(); CHUNK],
@@ -155,9 +158,10 @@ impl<L: ContactLaw> Chunk<L> {
         for (n, [slot, wall]) in bodies[..self.count].iter().enumerate() {
             let grain = scene.grain(*slot as usize);
             let point = scene.wall_point(*wall, grain.position);
-            let container = scene.room_of_wall(*wall).motion.velocity;
+            let room = scene.room_of_wall(*wall);
             self.towards.set(n, point.normal);
-            let velocity = grain.velocity - container;
+            self.wall_inverse_mass[n] = room.inverse_mass_along(point.normal);
+            let velocity = grain.velocity - room.motion.velocity;
             self.velocity.set(n, velocity);
             self.spins[0].set(n, grain.spin);
             self.spins[1].set(n, DVec3::ZERO);
@@ -201,7 +205,11 @@ impl<L: ContactLaw> Chunk<L> {
 
     /// The contact of a number at a moment.
     #[inline(always)]
-    pub(crate) fn contact<const PLANAR: bool>(&self, n: usize, moment: Moment) -> Contact {
+    pub(crate) fn contact<const PAIRS: bool, const PLANAR: bool>(
+        &self,
+        n: usize,
+        moment: Moment,
+    ) -> Contact {
         let spins = self
             .spins
             .each_ref()
@@ -212,6 +220,11 @@ impl<L: ContactLaw> Chunk<L> {
             spins,
             elapsed: moment.elapsed,
             correction: moment.correction,
+            wall_inverse_mass: if PAIRS {
+                0.0
+            } else {
+                self.wall_inverse_mass[n]
+            },
             ..Contact::new(normal, self.overlap[n], velocity)
         }
     }
@@ -273,7 +286,7 @@ impl<L: ContactLaw> Chunk<L> {
         n: usize,
         moment: Moment,
     ) {
-        let contact = self.contact::<PLANAR>(n, moment);
+        let contact = self.contact::<PAIRS, PLANAR>(n, moment);
         let memory = self.memory[n];
         let answer = law.force(kind, &contact, &memory);
         if END {
@@ -300,7 +313,7 @@ impl<L: ContactLaw> Chunk<L> {
     /// Has `law` answer once more where bodies may have met or may part within the step.
     /// `acceleration` is that of a contact's first centre relative to its second body, as it was
     /// evaluated last (m/s^2).
-    pub(crate) fn mend_edges<const END: bool>(
+    pub(crate) fn mend_edges<const PAIRS: bool, const END: bool>(
         &mut self,
         law: &L,
         only: Option<&L::Coefficients>,
@@ -310,7 +323,8 @@ impl<L: ContactLaw> Chunk<L> {
         for n in 0..self.count.min(CHUNK) {
             if Edge::is_near(self.overlap[n], self.approach[n], moment.time_step) {
                 let kind = only.copied().unwrap_or_else(|| self.kinds[n]);
-                let (contact, answer, memory) = self.ask(law, &kind, n, moment, acceleration(n));
+                let (contact, answer, memory) =
+                    self.ask::<PAIRS>(law, &kind, n, moment, acceleration(n));
                 self.note::<false, true>(n, contact.normal, &answer);
                 if END {
                     self.advanced[n] = memory;
@@ -321,7 +335,7 @@ impl<L: ContactLaw> Chunk<L> {
 
     /// A contact, the answer of the `law` with coefficients `kind`, and what the contact remembers
     /// at the end of the step.
-    pub(crate) fn ask(
+    pub(crate) fn ask<const PAIRS: bool>(
         &self,
         law: &L,
         kind: &L::Coefficients,
@@ -330,7 +344,7 @@ impl<L: ContactLaw> Chunk<L> {
         acceleration: DVec3,
     ) -> (Contact, ContactForce, L::Memory) {
         let time_step = moment.time_step;
-        let (contact, memory) = (self.contact::<false>(n, moment), &self.memory[n]);
+        let (contact, memory) = (self.contact::<PAIRS, false>(n, moment), &self.memory[n]);
         let (overlap, approach) = (contact.overlap, contact.approach_speed());
         if law.has_edges() && Edge::is_near(overlap, approach, time_step) {
             let edge = Edge::new(time_step, acceleration.dot(contact.normal));

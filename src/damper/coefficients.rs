@@ -44,14 +44,17 @@ impl<K: Copy> Coefficients<K> {
         })
     }
 
-    /// The longest time step that `law` allows for every wall contact and every pair of kinds; of a
-    /// long list of kinds, for every kind against itself and against the lightest.
-    pub(crate) fn time_step_limit<L>(&self, law: &L) -> Result<f64, LawError>
+    /// The longest time step that `law` allows for every contact with `wall` and every pair of kinds; of
+    /// a long list of kinds, for every kind against itself and against the lightest.
+    pub(crate) fn time_step_limit<L>(&self, law: &L, wall: Body) -> Result<f64, LawError>
     where
         L: ContactLaw<Coefficients = K>,
     {
         let longest = |limit: f64, coefficients: &K| limit.min(law.time_step_limit(coefficients));
-        let mut limit = self.walls.iter().fold(f64::INFINITY, longest);
+        let mut limit = f64::INFINITY;
+        for kind in &self.kinds {
+            limit = longest(limit, &law.coefficients(&Bodies::new(*kind, wall))?);
+        }
         if let Some(pairs) = &self.pairs {
             return Ok(pairs.iter().fold(limit, longest));
         }

@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::chunk::Moment;
 use super::coefficients::Coefficients;
@@ -26,6 +26,8 @@ pub(crate) struct Room<C> {
     pub(crate) first_wall: u32,
     /// Where its container is, and how it moves.
     pub(crate) motion: Motion,
+    /// Inverse effective mass of the container: velocity that it gains per unit impulse, 1/kg.
+    pub(crate) inverse_mass: DMat3,
     /// How much farther than the law's reach candidates are listed, m: they can be trusted while no
     /// particle has moved by half of it.
     pub(crate) margin: f64,
@@ -173,6 +175,19 @@ impl<C: Cavity> Room<C> {
 }
 
 impl<C> Room<C> {
+    /// Velocity along `normal` that the container gains per unit impulse along it, 1/kg.
+    #[inline(always)]
+    pub(crate) fn inverse_mass_along(&self, normal: DVec3) -> f64 {
+        normal.dot(self.inverse_mass * normal)
+    }
+
+    /// The greatest velocity that the container gains per unit impulse in any direction, from above
+    /// (Gershgorin), 1/kg.
+    pub(crate) fn greatest_inverse_mass(&self) -> f64 {
+        let rows = [0, 1, 2].map(|row| self.inverse_mass.row(row).abs().element_sum());
+        rows.into_iter().fold(0.0, f64::max)
+    }
+
     /// The slots among `slots` whose particles are in this room.
     pub(crate) fn slots_in(&self, slots: &Range<usize>) -> Range<usize> {
         let start = self.slots.start.clamp(slots.start, slots.end);

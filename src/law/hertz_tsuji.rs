@@ -54,8 +54,11 @@ use crate::material::Materials;
 /// right. What steps are worth is said in [`guide::trust`](crate::guide::trust#steps-to-a-contact).
 ///
 /// # Walls
-/// A wall counts as infinitely heavy, also where the container yields: one of mass `M` lowers the
-/// restitution of a particle of mass `m` as damping `(1 + m/M)^(1/2)` times as strong would.
+/// At a wall `m*` is the effective mass of the particle and the container, as far as the mount lets it
+/// yield along the normal: `1/m* = 1/m + 1/M` at the floor of a box of mass `M` that is free to move up
+/// and down. `c` follows from `m*` ([`Damping::coefficient`](crate::Damping::coefficient)), so a light
+/// box, too, rebounds from a particle with the restitution asked for. A container whose motion is
+/// prescribed, or handed in by a host program, does not yield.
 ///
 /// ```
 /// use particle_damper::{Bodies, Body, HertzTsuji, Material, Materials};

@@ -74,6 +74,20 @@ pub struct NormalHistory {
     pub(super) force: f64,
 }
 
+impl NormalCoefficients {
+    /// With the effective mass that the bodies have where the wall yields: a damping number then means
+    /// another damping coefficient ([`Damping::coefficient`]).
+    #[inline(always)]
+    fn yielding(mut self, damping: Damping, contact: &Contact) -> Self {
+        if contact.wall_inverse_mass > 0.0 {
+            let at_rest = self.mobility;
+            self.mobility += contact.wall_inverse_mass;
+            self.damping *= damping.of_mass(at_rest / self.mobility);
+        }
+        self
+    }
+}
+
 /// The normal force at one instant, in parts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Normal {
@@ -208,6 +222,7 @@ impl NormalForce {
         contact: &Contact,
         before: f64,
     ) -> Normal {
+        let coefficients = coefficients.yielding(self.damping, contact);
         // Rounding can leave touching bodies with an overlap of zero, or a hair less.
         let overlap = at_least(contact.overlap, f64::MIN_POSITIVE);
         let root = overlap.sqrt();
@@ -249,12 +264,14 @@ impl NormalForce {
             stiffness,
             damping,
             mobility,
-        } = *coefficients;
+        } = coefficients.yielding(self.damping, contact);
         let (overlap, h) = (contact.overlap, edge.time_step);
         // The mean speed since the step began, which is that of touch if they touched since; before its
         // end they may have touched in the step before, and the speed at its start is nearer.
         let back = if contact.elapsed < h { 1.0 } else { 0.5 } * contact.elapsed;
-        let coming = contact.approach_speed() + back * edge.acceleration;
+        // A wall that yields gives way to the force that it bore.
+        let acceleration = edge.acceleration + before * contact.wall_inverse_mass;
+        let coming = contact.approach_speed() + back * acceleration;
         let gain = mobility * contact.correction;
         let power = self.damping.power();
         let sampled = |way: f64, part: f64| {
@@ -272,7 +289,7 @@ impl NormalForce {
         // were slowed down then.
         let part = overlap / way;
         let in_step = if (part - 1.0).abs() < ROUNDING {
-            edge.acceleration < 0.5 * mobility * met(0.0)
+            acceleration < 0.5 * mobility * met(0.0)
         } else {
             overlap < way
         };

@@ -5,6 +5,7 @@
 //! are compared because the effective mass enters the method.
 
 use particle_damper::glam::DVec3;
+use particle_damper::mount::SingleDof;
 use particle_damper::{
     Body, ContactLaw, Cuboid, Damper, Damping, Ending, HertzMindlin, HertzTsuji, Integrator,
     Materials, Particle, RungeKutta4, VelocityVerlet,
@@ -266,8 +267,66 @@ fn several() -> Vec<Case> {
     cases
 }
 
+/// Masses of a ball over that of the box that it meets.
+const MASS_RATIOS: [f64; 5] = [0.01, 0.1, 0.3, 1.0, 10.0];
+
+/// Deviation of impacts of a ball at 1 m/s on the floor of a box that is free to move, with `steps` to a
+/// contact of their effective mass.
+fn on_free_box<L: ContactLaw + Clone>(law: &L, ratio: f64, asked: f64, steps: f64) -> Deviation {
+    let ball = paper_particle();
+    let mass = ball.mass / ratio;
+    let k = hertz_constant((ball.radius, 0.4e9, 0.3), (f64::INFINITY, 0.4e9, 0.3));
+    let effective = 1.0 / (1.0 / ball.mass + 1.0 / mass);
+    let dt = hertz_duration(k, effective, 1.0) / steps;
+    Deviation::of((0..PHASES).map(|phase| {
+        let gap = dt * (f64::from(phase) + 0.37) / f64::from(PHASES);
+        let foot = DVec3::new(0.1, ball.radius + gap, 0.1);
+        let mut damper = Damper::builder(Cuboid::new(DVec3::splat(0.2)).unwrap(), law.clone())
+            .gravity(DVec3::ZERO)
+            .mount(SingleDof::new(mass, 0.0, 0.0).unwrap())
+            .particles([ball.at(foot).moving(DVec3::NEG_Y)])
+            .time_step(dt)
+            .build()
+            .unwrap();
+        for _ in 0..(2.0 * steps) as u32 {
+            damper.step().unwrap();
+        }
+        damper.particle(0).unwrap().velocity.y - damper.rates()[0] - asked
+    }))
+}
+
+/// One ball and one box.
+fn free_box() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (damping, asked) in [(Damping::Viscoelastic, 0.6), (Damping::Tsuji, 0.6)] {
+        let law = HertzTsuji::new(acrylic(asked, 0.2)).damping(damping);
+        for ratio in MASS_RATIOS {
+            for (steps, mean) in [(6.0, 0.007), (100.0, 5e-4)] {
+                let found = on_free_box(&law, ratio, asked, steps);
+                cases.push(Case::new(
+                    format!("{damping:?}, ball {ratio} of the box, {steps} steps, e {asked}: mean"),
+                    ASKED_FOR,
+                    asked,
+                    asked + found.mean,
+                    Tolerance::Relative(mean),
+                ));
+                cases.push(Case::bounded(
+                    format!(
+                        "{damping:?}, ball {ratio} of the box, {steps} steps, e {asked}: farthest"
+                    ),
+                    ASKED_FOR,
+                    if steps > 6.0 { 1e-3 } else { 0.03 },
+                    found.farthest,
+                ));
+            }
+        }
+    }
+    cases
+}
+
 pub(crate) fn cases(_: Form) -> Vec<Case> {
     let mut cases = coarse();
     cases.extend(several());
+    cases.extend(free_box());
     cases
 }

@@ -212,7 +212,7 @@ fn answer_pairs<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
     chunk.answer::<true, END, PLANAR>(scene.law, only, kinds, scene.moment);
     if scene.law.has_edges() {
         let acceleration = |n: usize| acceleration_of_pair(scene, bodies[n]);
-        chunk.mend_edges::<END>(scene.law, only, scene.moment, acceleration);
+        chunk.mend_edges::<true, END>(scene.law, only, scene.moment, acceleration);
     }
     if END {
         list.keep_run(run, scene.stamp.wrapping_add(1), chunk.advanced());
@@ -238,7 +238,7 @@ fn answer_walls<C: Cavity, L: ContactLaw, const END: bool, const PLANAR: bool>(
     chunk.answer::<false, END, PLANAR>(scene.law, only, kinds, scene.moment);
     if scene.law.has_edges() {
         let acceleration = |n: usize| scene.acceleration.get(bodies[n][0] as usize);
-        chunk.mend_edges::<END>(scene.law, only, scene.moment, acceleration);
+        chunk.mend_edges::<false, END>(scene.law, only, scene.moment, acceleration);
     }
     if END {
         list.keep_run(run, scene.stamp.wrapping_add(1), chunk.advanced());

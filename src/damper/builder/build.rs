@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::Builder;
 use crate::cavity::Cavity;
+use crate::contact::Body;
 use crate::damper::block::{BLOCK, memories, room_for};
 use crate::damper::clock::Clock;
 use crate::damper::coefficients::Coefficients;
@@ -49,10 +50,15 @@ where
         let planar = self.cavities.iter().all(Cavity::is_planar);
         let particles = Particles::new(&self.particles, numbers, planar);
         let coefficients = Coefficients::new(&self.law, &particles.kinds, self.wall_material)?;
-        let time_step = self.choose_time_step(coefficients.time_step_limit(&self.law)?)?;
         let smallest = smallest_radius(&particles.kinds);
-        let reach = self.law.reach(time_step);
         let rooms = self.rooms(smallest);
+        let yielding = rooms.iter().map(Room::greatest_inverse_mass);
+        let wall = Body {
+            mass: 1.0 / yielding.fold(0.0, f64::max),
+            ..Body::wall(self.wall_material)
+        };
+        let time_step = self.choose_time_step(coefficients.time_step_limit(&self.law, wall)?)?;
+        let reach = self.law.reach(time_step);
         let walls = Engine::<C, L, M, D>::wall_count(&rooms);
         let joints = match self.law.evaluation() {
             Evaluation::EveryStage => Joints::default(),
@@ -234,6 +240,7 @@ where
                 slots: slot..end,
                 first_wall: wall,
                 motion: Motion::default(),
+                inverse_mass: self.mount.mobility(number),
                 margin,
             });
             slot = end;
