@@ -48,5 +48,5 @@ macro_rules! families {
 
 families! {
     contacts impulses chung_ooi oblique mfix impact_damper inelastic paper_system integrators restitution
-    energy rest defects
+    size_ratio energy rest defects
 }

@@ -137,7 +137,9 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
         self
     }
 
-    /// Length of a step in s; half of what the law allows unless set.
+    /// Length of a step in s; half of what the law allows unless set. Under a strict law that is eight
+    /// steps to a contact or more, which give the restitution asked for to within 1 %
+    /// ([`guide::trust`](crate::guide::trust#steps-to-a-contact)).
     pub const fn time_step(mut self, time_step: f64) -> Self {
         self.time_step = Some(time_step);
         self

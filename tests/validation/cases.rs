@@ -17,6 +17,7 @@ pub(crate) mod oblique;
 pub(crate) mod paper_system;
 pub(crate) mod rest;
 pub(crate) mod restitution;
+pub(crate) mod size_ratio;
 
 use case::Case;
 
@@ -42,6 +43,7 @@ pub(crate) const FAMILIES: &[Family] = &[
     ("paper_system", paper_system::cases),
     ("integrators", integrators::cases),
     ("restitution", restitution::cases),
+    ("size_ratio", size_ratio::cases),
     ("energy", energy::cases),
     ("rest", rest::cases),
     ("defects", defects::cases),
