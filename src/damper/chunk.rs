@@ -125,6 +125,13 @@ impl<L: ContactLaw> Default for Chunk<L> {
 }
 
 impl<L: ContactLaw> Chunk<L> {
+    /// Makes ready for pairs, whose bodies may all be of `only` one radius (m).
+    pub(crate) fn begin_pairs(&mut self, only: Option<f64>) {
+        if let Some(radius) = only {
+            self.radii = [[radius; CHUNK]; 2];
+        }
+    }
+
     /// Takes over the pairs of `bodies`, at most [`CHUNK`] of them.
     #[inline(always)]
     pub(crate) fn gather_pairs<C: Cavity, const PLANAR: bool>(
@@ -146,8 +153,12 @@ impl<L: ContactLaw> Chunk<L> {
             self.velocity.set_polar::<PLANAR>(n, velocity);
             self.spins[0].set_axial::<PLANAR>(n, spin.get(i));
             self.spins[1].set_axial::<PLANAR>(n, spin.get(j));
-            self.radii[0][n] = radius[i];
-            self.radii[1][n] = radius[j];
+        }
+        if scene.coefficients.only_radius().is_none() {
+            for (n, [i, j]) in bodies.iter().take(CHUNK).enumerate() {
+                self.radii[0][n] = radius[*i as usize];
+                self.radii[1][n] = radius[*j as usize];
+            }
         }
     }
 

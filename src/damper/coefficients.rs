@@ -92,6 +92,14 @@ impl<K: Copy> Coefficients<K> {
         }
     }
 
+    /// The radius of every particle in m, if there is one kind alone.
+    pub(crate) fn only_radius(&self) -> Option<f64> {
+        match self.kinds.as_slice() {
+            [only] => Some(only.radius),
+            _ => None,
+        }
+    }
+
     /// The coefficients of every pair, if there is one kind alone.
     pub(crate) fn only_pair(&self) -> Option<&K> {
         match self.pairs.as_deref() {

@@ -55,6 +55,7 @@ impl<L: ContactLaw> Block<L> {
         let base = self.slots.start;
         let chunk = &mut *self.chunk;
         let mut deepest = 0.0_f64;
+        chunk.begin_pairs(scene.coefficients.only_radius());
         let list = &mut self.pairs;
         for run in runs(list.contacts.len()) {
             answer_pairs::<C, L, END, PLANAR>(scene, list, chunk, run.clone());
