@@ -44,19 +44,23 @@ pub(crate) struct Deviation {
     pub(crate) mean: f64,
     /// The farthest from what was asked.
     pub(crate) farthest: f64,
+    /// Root mean square over the phase.
+    pub(crate) rms: f64,
 }
 
 impl Deviation {
     fn of(errors: impl Iterator<Item = f64>) -> Self {
-        let (mut sum, mut count, mut farthest) = (0.0, 0.0, 0.0_f64);
+        let (mut sum, mut squares, mut count, mut farthest) = (0.0, 0.0, 0.0, 0.0_f64);
         for error in errors {
             sum += error;
+            squares += error * error;
             count += 1.0;
             farthest = farthest.max(error.abs());
         }
         Self {
             mean: sum / count,
             farthest,
+            rms: f64::sqrt(squares / count),
         }
     }
 
@@ -71,6 +75,7 @@ impl Deviation {
         Self {
             mean,
             farthest: self.farthest.max(other.farthest),
+            rms: self.rms.max(other.rms),
         }
     }
 }
