@@ -88,11 +88,14 @@ pub enum LawError {
 ///    by [`Contact::elapsed`] (the paper's Eq. 12).
 /// 5. [`time_step_limit`](Self::time_step_limit) is the longest step that the law can bear; a builder
 ///    refuses a longer one.
-/// 6. Forces are taken step by step, and what they miss of an impact where it begins and ends between
+/// 6. Velocities can be predicted with the forces of the step before: a force that damps strongly should
+///    then be worked out with the velocity that it leaves itself ([`Contact::correction`], and what
+///    [`HertzTsuji`](HertzTsuji#impacts-in-few-steps) does with it).
+/// 7. Forces are taken step by step, and what they miss of an impact where it begins and ends between
 ///    two of them can be made up for: see [`at_edge`](Self::at_edge).
-/// 7. An impulse law whose contacts can rest may [carry](Self::carry) impulses over from step to step,
+/// 8. An impulse law whose contacts can rest may [carry](Self::carry) impulses over from step to step,
 ///    and take back in [`strike`](Self::strike) what it gave before.
-/// 8. [`stored`](Self::stored) tells energy that a contact holds from energy that it has lost. It is
+/// 9. [`stored`](Self::stored) tells energy that a contact holds from energy that it has lost. It is
 ///    asked only by observers; by default all of the force's work counts as lost, or as a negative
 ///    loss where it is given back.
 ///

@@ -3,10 +3,9 @@
 use std::f64::consts::PI;
 
 use super::damping::{Damping, Ending};
-use super::edge::Power;
 use super::hertz::ElasticImpact;
-use super::{LawError, at_least, at_most};
-use crate::contact::{Bodies, Contact, Edge, Stored};
+use super::{LawError, at_least};
+use crate::contact::{Bodies, Contact, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::{Interaction, Material, MaterialId, Materials};
 
@@ -23,18 +22,6 @@ const GAIN: f64 = 4.0;
 /// 4/50^3, and a thousand bounces of one ball change its energy by less than 1e-4.
 const ELASTIC_STEPS: f64 = 50.0;
 
-/// Relative error of an overlap against the way in a step.
-const ROUNDING: f64 = 1e-6;
-
-/// Where a contact begins, its speed falls during the step like an exponential rather than a line. Of
-/// 0, 0.1 ... 0.6 this part leaves the least mean error of restitutions from 0.3 to 0.95 at 4.5 and at
-/// 6 steps to a contact: 1.5 % and 0.5 % of the restitution, with either damping.
-const SLOWED: f64 = 0.5;
-
-/// How often the end of a pull is worked out: with three rounds the restitution is within 0.1 % of that
-/// with twenty.
-const ENDINGS: usize = 3;
-
 /// The fewest steps to a contact in which damping takes more energy than integration can add to an
 /// oscillation `quickness` times as fast as the contact's own.
 fn fewest_steps(restitution: f64, quickness: f64) -> f64 {
@@ -46,8 +33,8 @@ fn fewest_steps(restitution: f64, quickness: f64) -> f64 {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct NormalForce {
     materials: Materials,
-    damping: Damping,
-    ending: Ending,
+    pub(super) damping: Damping,
+    pub(super) ending: Ending,
     reference_speed: f64,
     /// The damping number of each ordered pair of materials, row by row.
     numbers: Vec<Result<f64, ValueError>>,
@@ -58,11 +45,11 @@ pub(super) struct NormalForce {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct NormalCoefficients {
     /// k in N/m^(3/2).
-    stiffness: f64,
+    pub(super) stiffness: f64,
     /// c in N s/m^(3/2) or N s/m^(5/4).
-    damping: f64,
+    pub(super) damping: f64,
     /// 1/m* in 1/kg.
-    mobility: f64,
+    pub(super) mobility: f64,
 }
 
 /// What a contact under [`HertzTsuji`](crate::HertzTsuji) remembers: the normal force at the end of the
@@ -78,7 +65,7 @@ impl NormalCoefficients {
     /// With the effective mass that the bodies have where the wall yields: a damping number then means
     /// another damping coefficient ([`Damping::coefficient`]).
     #[inline(always)]
-    fn yielding(mut self, damping: Damping, contact: &Contact) -> Self {
+    pub(super) fn yielding(mut self, damping: Damping, contact: &Contact) -> Self {
         if contact.wall_inverse_mass > 0.0 {
             let at_rest = self.mobility;
             self.mobility += contact.wall_inverse_mass;
@@ -243,83 +230,11 @@ impl NormalForce {
     }
 
     #[inline(always)]
-    fn ended(&self, force: f64) -> f64 {
+    pub(super) fn ended(&self, force: f64) -> f64 {
         match self.ending {
             Ending::NeverPulling => at_least(force, 0.0),
             Ending::PullingAllowed => force,
         }
-    }
-
-    /// The normal force where the bodies may have met or may part within a step h of now: with what
-    /// evaluations h apart miss made up for ([`edge`](super::edge)).
-    pub(super) fn at_edge(
-        &self,
-        coefficients: &NormalCoefficients,
-        contact: &Contact,
-        before: f64,
-        edge: &Edge,
-    ) -> Normal {
-        let mut normal = self.at(coefficients, contact, before);
-        let NormalCoefficients {
-            stiffness,
-            damping,
-            mobility,
-        } = coefficients.yielding(self.damping, contact);
-        let (overlap, h) = (contact.overlap, edge.time_step);
-        // The mean speed since the step began, which is that of touch if they touched since; before its
-        // end they may have touched in the step before, and the speed at its start is nearer.
-        let back = if contact.elapsed < h { 1.0 } else { 0.5 } * contact.elapsed;
-        // A wall that yields gives way to the force that it bore.
-        let acceleration = edge.acceleration + before * contact.wall_inverse_mass;
-        let coming = contact.approach_speed() + back * acceleration;
-        let gain = mobility * contact.correction;
-        let power = self.damping.power();
-        let sampled = |way: f64, part: f64| {
-            let spring = stiffness * Power::ThreeHalves.of(way) * Power::ThreeHalves.sampled(part);
-            (spring, damping * power.of(way) * power.sampled(part))
-        };
-        let way = coming * h;
-        let met = |part: f64| {
-            let (spring, resistance) = sampled(way, part);
-            // The dashpot acts from the touch to half a step from now, with this mean.
-            let slowing = resistance * gain / (part + 0.5);
-            (spring + resistance * coming) / (1.0 + slowing / (1.0 + SLOWED * slowing))
-        };
-        // To within rounding, what tells whether they touched already as the step began is whether they
-        // were slowed down then.
-        let part = overlap / way;
-        let in_step = if (part - 1.0).abs() < ROUNDING {
-            acceleration < 0.5 * mobility * met(0.0)
-        } else {
-            overlap < way
-        };
-        if in_step {
-            normal.force = met(part);
-            return normal;
-        }
-        // A contact ends as it sets in, but that damping fades out smoothly where it never pulls.
-        let leaving = |force: f64| force * h * mobility - coming;
-        let mut way = leaving(normal.force) * h;
-        if contact.approach_speed() > 0.0 || overlap > way {
-            return normal;
-        }
-        if self.ending == Ending::NeverPulling || gain == 0.0 {
-            let part = overlap / way;
-            let more = Power::ThreeHalves.sampled(part) - Power::ThreeHalves.of(part);
-            let spring = stiffness * Power::ThreeHalves.of(way) * more;
-            normal.force = self.ended(normal.force + spring);
-            return normal;
-        }
-        // A pull slows the bodies down, and so its end depends on the pull.
-        let speed = contact.approach_speed() + before * gain;
-        for _ in 0..ENDINGS {
-            let part = at_most(overlap / way, 1.0);
-            let (spring, resistance) = sampled(way, part);
-            let slowing = resistance * gain * (2.0 - 1.0 / (part + 0.5));
-            normal.force = (spring + resistance * speed) / (1.0 + slowing);
-            way = at_least(leaving(normal.force) * h, overlap);
-        }
-        normal
     }
 
     /// Hertz's force and energy, 2/5 k d^(5/2); `tangential` is the energy (J) of the stretch.
