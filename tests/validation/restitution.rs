@@ -21,6 +21,8 @@ const PHASES: u32 = 32;
 
 const ASKED_FOR: &str = "restitution asked for";
 
+const CLAUSIUS: &str = "kinetic energy after minus before, over before: never above zero";
+
 const SMALL_STEP: &str = "the same with 3000 steps to a contact";
 
 /// Restitutions that bounds hold for.
@@ -300,12 +302,49 @@ fn on_free_box<L: ContactLaw + Clone>(law: &L, ratio: f64, asked: f64, steps: f6
     }))
 }
 
+/// Gain of energy, over what there was, in an oblique impact of a ball on such a box, with the
+/// longest step that the builder accepts.
+fn gain_on_free_box<L: ContactLaw + Clone>(law: &L, ratio: f64, phase: f64) -> f64 {
+    let ball = paper_particle();
+    let mass = ball.mass / ratio;
+    let make = |dt: f64| {
+        let foot = DVec3::new(0.1, ball.radius + phase * dt, 0.1);
+        let thrown = ball.at(foot).moving(DVec3::new(0.8, -1.0, 0.0));
+        let axis = DVec3::new(0.3, 1.0, 0.0);
+        Damper::builder(Cuboid::new(DVec3::splat(0.2)).unwrap(), law.clone())
+            .gravity(DVec3::ZERO)
+            .mount(SingleDof::new(mass, 0.0, 0.0).unwrap().along(axis).unwrap())
+            .particles([thrown])
+    };
+    // Half of the longest by default.
+    let dt = 2.0 * make(0.0).build().unwrap().time_step();
+    let mut damper = make(dt).time_step(dt).build().unwrap();
+    let energy = |damper: &Damper<_, _, SingleDof, _, _>| {
+        damper.kinetic_energy() + 0.5 * mass * damper.rates()[0].powi(2)
+    };
+    let before = energy(&damper);
+    for _ in 0..200 {
+        damper.step().unwrap();
+    }
+    energy(&damper) / before - 1.0
+}
+
 /// One ball and one box.
 fn free_box() -> Vec<Case> {
     let mut cases = Vec::new();
     for (damping, asked) in [(Damping::Viscoelastic, 0.6), (Damping::Tsuji, 0.6)] {
         let law = HertzTsuji::new(acrylic(asked, 0.2)).damping(damping);
         for ratio in MASS_RATIOS {
+            for e in [0.3, 0.75, 0.99] {
+                let law = HertzTsuji::new(acrylic(e, 0.0)).damping(damping);
+                let gains = (0..8).map(|n| gain_on_free_box(&law, ratio, f64::from(n) / 8.0));
+                cases.push(Case::bounded(
+                    format!("{damping:?}, ball {ratio} of the box, e {e}: gain of energy"),
+                    CLAUSIUS,
+                    0.0,
+                    gains.fold(f64::NEG_INFINITY, f64::max),
+                ));
+            }
             for (steps, mean) in [(6.0, 0.007), (100.0, 5e-4)] {
                 let found = on_free_box(&law, ratio, asked, steps);
                 cases.push(Case::new(
