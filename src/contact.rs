@@ -10,7 +10,8 @@ use crate::material::MaterialId;
 pub struct Body {
     /// Radius in m; infinite for a wall.
     pub radius: f64,
-    /// Mass in kg; infinite for a wall.
+    /// Mass in kg; infinite for a wall, unless a time step is judged: then the least effective mass of
+    /// the containers.
     pub mass: f64,
     /// Number of its material.
     pub material: MaterialId,
@@ -58,7 +59,7 @@ impl Bodies {
         self.second.radius.is_infinite()
     }
 
-    /// Effective mass m* = m1 m2/(m1 + m2) in kg; the sphere's own mass at a wall.
+    /// Effective mass m* = m1 m2/(m1 + m2) in kg; the sphere's own mass at a wall that does not yield.
     #[must_use]
     pub fn effective_mass(&self) -> f64 {
         1.0 / (1.0 / self.first.mass + 1.0 / self.second.mass)
@@ -89,6 +90,14 @@ pub struct Contact {
     pub spins: [DVec3; 2],
     /// Time since the contact's memory was advanced, in s; under an impulse law the length of the step.
     pub elapsed: f64,
+    /// Time in s by which a force, by as much as it differs from that of the evaluation before, still
+    /// changes `velocity` and `spins` to those of the instant: half of the step where an integrator
+    /// [predicts](crate::integrator::Stage::Predicted) them, zero where they are those of the instant.
+    pub correction: f64,
+    /// Velocity along the normal that the second body gains per unit impulse along it, in 1/kg, if it is
+    /// a wall of a container that yields; zero if it does not, and for a pair (the law knows its masses).
+    /// The inverse effective mass along the normal is larger by as much.
+    pub wall_inverse_mass: f64,
 }
 
 impl Contact {
@@ -102,6 +111,8 @@ impl Contact {
             velocity,
             spins: [DVec3::ZERO; 2],
             elapsed: 0.0,
+            correction: 0.0,
+            wall_inverse_mass: 0.0,
         }
     }
 

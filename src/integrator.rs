@@ -49,6 +49,10 @@ pub enum Stage {
     Trial,
     /// The one at the end of the step: positions are final, contacts advance their memory.
     End,
+    /// The same with velocities v + a dt, predicted with the accelerations a of the evaluation before,
+    /// which the step ends by correcting to v + (a + a') dt/2. A contact's own force can then be worked
+    /// out with the velocity that it will leave ([`Contact::correction`](crate::Contact::correction)).
+    Predicted,
 }
 
 /// A mechanical system as an integrator sees it: columns to move, and a way to ask for
@@ -73,8 +77,8 @@ pub trait System {
 /// # Implementing
 /// 1. On entry the accelerations are those of the current state.
 /// 2. Call [`System::evaluate`] any number of times with [`Stage::Trial`], and then exactly once with
-///    [`Stage::End`] at `time_step`, with the final positions. Velocities may still be corrected
-///    after that.
+///    [`Stage::End`] or [`Stage::Predicted`] at `time_step`, with the final positions. Velocities may
+///    still be corrected after that.
 /// 3. The accelerations that the last evaluation left serve as the next step's first.
 /// 4. Keep scratch in the integrator, and nothing else: a step may follow a restored state.
 ///

@@ -34,6 +34,7 @@ pub use hertz_tsuji::HertzTsuji;
 pub use impulse_law::ImpulseLaw;
 pub(crate) use kind::LawVisitor;
 pub use kind::{ContactMemory, Forces, Impulses, LawKind};
+pub use normal::NormalHistory;
 pub use restitution::{RestitutionCoefficients, RestitutionImpulse};
 pub use solver_parameters::{SolverParameters, SweepOrder};
 

@@ -140,8 +140,8 @@ pub use filling::{Filling, FillingError};
 pub use integrator::{Integrator, RungeKutta4, VelocityVerlet};
 pub use law::{
     ContactLaw, ContactMemory, Damping, ElasticImpact, Ending, ForceLaw, Forces, Friction,
-    HertzMindlin, HertzTsuji, ImpulseLaw, Impulses, LawError, LawKind, RestitutionImpulse,
-    SolverParameters, SweepOrder, TangentialSpring,
+    HertzMindlin, HertzTsuji, ImpulseLaw, Impulses, LawError, LawKind, NormalHistory,
+    RestitutionImpulse, SolverParameters, SweepOrder, TangentialSpring,
 };
 pub use material::{Interaction, Material, MaterialId, Materials};
 pub use mount::{Driven, Motion, Mount, MountEnergy, Prescribed, SingleDof};

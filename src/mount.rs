@@ -1,6 +1,6 @@
 //! Mounts: what the container is fixed to, and how it moves.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use crate::excitation::Jump;
 
@@ -153,6 +153,43 @@ pub trait Mount {
     /// Told that the damper was restored to a state with the containers at `motions`. Only a mount
     /// that keeps state of its own besides its coordinates cares.
     fn resume(&mut self, _motions: &[Motion]) {}
+}
+
+/// Velocity of the second of two containers per unit impulse on the first, 1/kg, row by row; none if the
+/// mount has no coordinates. From [`Mount::accelerate`], which is linear in the loads.
+pub(crate) fn responses<M: Mount>(
+    mount: &M,
+    time: f64,
+    coordinates: &[f64],
+    velocities: &[f64],
+    cavities: usize,
+) -> Vec<DMat3> {
+    let degrees = mount.degrees();
+    if degrees == 0 {
+        return Vec::new();
+    }
+    let velocities_under = |loads: &[DVec3]| -> Vec<DVec3> {
+        let mut rates = vec![0.0; degrees];
+        mount.accelerate(time, coordinates, velocities, loads, &mut rates);
+        for (rate, velocity) in rates.iter_mut().zip(velocities) {
+            *rate += velocity;
+        }
+        let motions = (0..cavities).map(|cavity| mount.motion(time, coordinates, &rates, cavity));
+        motions.map(|motion| motion.velocity).collect()
+    };
+    let mut loads = vec![DVec3::ZERO; cavities];
+    let free = velocities_under(&loads);
+    let mut responses = vec![DMat3::ZERO; cavities * cavities];
+    for struck in 0..cavities {
+        for axis in 0..3 {
+            loads[struck] = DVec3::AXES[axis];
+            for (cavity, velocity) in velocities_under(&loads).into_iter().enumerate() {
+                *responses[struck * cavities + cavity].col_mut(axis) = velocity - free[cavity];
+            }
+            loads[struck] = DVec3::ZERO;
+        }
+    }
+    responses
 }
 
 impl<M: Mount + ?Sized> Mount for &mut M {

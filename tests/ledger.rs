@@ -76,7 +76,7 @@ fn the_account_of_the_impulse_law_closes() {
     assert!(ledger.losses().pair_normal > 0.0 && ledger.losses().wall_friction > 0.0);
 }
 
-/// An impact of six steps is not resolved; what that takes falls with the square of the step.
+/// An impact of six steps is not resolved; what that leaves open falls with the square of the step.
 #[test]
 fn what_the_time_step_takes_falls_with_its_square() {
     let loss = |dt| {

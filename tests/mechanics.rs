@@ -200,14 +200,15 @@ fn nobody_leaves_a_box_that_is_slammed_into_the_bed() {
     slammed(RestitutionImpulse::new(Material::acrylic()), 1e-4);
 }
 
-/// A resting bed sinks (seen elsewhere).
+/// A resting bed sinks (seen elsewhere). Nothing resists rolling here, and in one bed of four a particle
+/// is still rolling after five seconds; after eight none is.
 fn rests<L: ContactLaw>(law: L, time_step: f64, duration: f64) {
     let mut damper = Damper::builder(Slot::paper(), law)
         .particles(bed(20))
         .time_step(time_step)
         .build()
         .unwrap();
-    steps(&mut damper, (5.0 / time_step) as usize);
+    steps(&mut damper, (8.0 / time_step) as usize);
     let before: Vec<DVec3> = damper.particles().map(|p| p.position).collect();
     steps(&mut damper, (duration / time_step) as usize);
     for (number, (particle, before)) in damper.particles().zip(before).enumerate() {

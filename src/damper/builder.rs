@@ -149,6 +149,9 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
 
     /// Length of a step in s. Unless set, half of what the law allows, and no more than the mount's
     /// [natural frequency](Mount::highest_frequency) and the [excitation](Mount::shortest_feature) do.
+    /// Under a strict law that is eight steps to a contact or more, which give the restitution asked for to
+    /// within 1 % ([`guide::trust`](crate::guide::trust#steps-to-a-contact)); of contacts that may pull, on
+    /// the mean.
     pub const fn time_step(mut self, time_step: f64) -> Self {
         self.time_step = Some(time_step);
         self

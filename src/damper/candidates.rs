@@ -54,7 +54,8 @@ pub(crate) const fn pair(first: u32, second: u32) -> (u32, u32) {
 #[derive(Debug, Clone)]
 pub(crate) struct Candidates<L: ContactLaw> {
     list: Vec<Candidate>,
-    /// Place of the entry of each, or [`NONE`]; empty if contacts remember nothing.
+    /// Place of the entry of each, or [`NONE`]; empty if contacts remember nothing, and if each has the
+    /// entry of its own place.
     entry: Vec<u32>,
     /// What those remember that have touched since they were listed, or had before.
     entries: Vec<Entry<ContactMemory<L>>>,
@@ -149,6 +150,10 @@ impl<L: ContactLaw> Candidates<L> {
     /// Whether the law's contacts remember anything; decided when the program is compiled.
     pub(crate) const REMEMBERS: bool = size_of::<ContactMemory<L>>() != 0;
 
+    /// Whether each candidate has an entry of its own. The entries of a larger memory would not stay in
+    /// the caches, and those of contacts alone are kept.
+    const EACH: bool = Self::REMEMBERS && size_of::<Entry<ContactMemory<L>>>() <= 16;
+
     /// Empties the list.
     pub(crate) fn clear(&mut self) {
         self.list.clear();
@@ -187,7 +192,7 @@ impl<L: ContactLaw> Candidates<L> {
         make_room(&mut self.contacts.bodies, candidates + 1);
         make_room(&mut self.contacts.places, candidates + 1);
         if Self::REMEMBERS {
-            make_room(&mut self.entry, candidates);
+            make_room(&mut self.entry, if Self::EACH { 0 } else { candidates });
             make_room(&mut self.entries, candidates);
         }
     }
@@ -218,20 +223,25 @@ impl<L: ContactLaw> Candidates<L> {
             return;
         }
         self.entry.clear();
-        fit(&mut self.entry, count, NONE);
         self.entries.clear();
-        make_room(&mut self.entries, remembered.len().min(count));
+        if Self::EACH {
+            let forgotten = Entry {
+                touched: stamp.wrapping_sub(1),
+                memory: ContactMemory::<L>::default(),
+            };
+            fit(&mut self.entries, count, forgotten);
+        } else {
+            fit(&mut self.entry, count, NONE);
+            make_room(&mut self.entries, remembered.len().min(count));
+        }
         let mut remembered = remembered.iter().peekable();
-        for (entry, candidate) in self.entry.iter_mut().zip(&self.list) {
+        for (place, candidate) in self.list.iter().enumerate() {
             let own = key(candidate.first, candidate.second);
             let of = |contact: &Remembered<ContactMemory<L>>| key(contact.first, contact.second);
             while remembered.next_if(|contact| of(contact) < own).is_some() {}
             if let Some(contact) = remembered.next_if(|contact| of(contact) == own) {
-                *entry = self.entries.len() as u32;
-                self.entries.push(Entry {
-                    touched: stamp,
-                    memory: contact.memory,
-                });
+                let (entry, entries) = (&mut self.entry, &mut self.entries);
+                Self::keep_at(entry, entries, place, stamp, &contact.memory);
             }
         }
     }
@@ -293,7 +303,13 @@ impl<L: ContactLaw> Candidates<L> {
         if !Self::REMEMBERS {
             return None;
         }
-        let entry = self.entries.get(self.entry[place as usize] as usize);
+        let place = place as usize;
+        let own = if Self::EACH {
+            place
+        } else {
+            self.entry[place] as usize
+        };
+        let entry = self.entries.get(own);
         let touched = entry.filter(|entry| entry.touched == stamp);
         touched.map(|entry| &entry.memory)
     }
@@ -312,6 +328,25 @@ impl<L: ContactLaw> Candidates<L> {
         }
     }
 
+    /// Keeps what the candidate at a place remembers at the end of step `stamp`.
+    #[inline(always)]
+    fn keep_at(
+        entry: &mut [u32],
+        entries: &mut Vec<Entry<ContactMemory<L>>>,
+        place: usize,
+        stamp: u32,
+        memory: &ContactMemory<L>,
+    ) {
+        if Self::EACH {
+            entries[place] = Entry {
+                touched: stamp,
+                memory: *memory,
+            };
+        } else {
+            keep(entries, &mut entry[place], stamp, memory);
+        }
+    }
+
     /// Keeps what the contacts of a run remember at the end of step `stamp`.
     #[inline(always)]
     pub(crate) fn keep_run(
@@ -322,8 +357,8 @@ impl<L: ContactLaw> Candidates<L> {
     ) {
         if Self::REMEMBERS {
             for (place, memory) in self.contacts.places[run].iter().zip(memories) {
-                let entry = &mut self.entry[*place as usize];
-                keep(&mut self.entries, entry, stamp, memory);
+                let (entry, entries) = (&mut self.entry, &mut self.entries);
+                Self::keep_at(entry, entries, *place as usize, stamp, memory);
             }
         }
     }
@@ -331,12 +366,8 @@ impl<L: ContactLaw> Candidates<L> {
     /// Keeps what a candidate remembers at the end of step `stamp`.
     #[inline(always)]
     pub(crate) fn keep(&mut self, place: u32, stamp: u32, memory: &ContactMemory<L>) {
-        keep(
-            &mut self.entries,
-            &mut self.entry[place as usize],
-            stamp,
-            memory,
-        );
+        let (entry, entries) = (&mut self.entry, &mut self.entries);
+        Self::keep_at(entry, entries, place as usize, stamp, memory);
     }
 
     /// Memory in bytes that the list has reserved.

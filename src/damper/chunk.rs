@@ -73,6 +73,8 @@ impl Lanes {
 pub(crate) struct Moment {
     /// Time since memories were advanced, s.
     pub(crate) elapsed: f64,
+    /// Time by which a change of the forces still changes the velocities, s.
+    pub(crate) correction: f64,
     /// Length of the step, s; zero before the first.
     pub(crate) time_step: f64,
 }
@@ -93,6 +95,8 @@ pub(crate) struct Chunk<L: ContactLaw> {
     overlap: Column,
     /// Rate of overlap, m/s.
     approach: Column,
+    /// Of walls: velocity that they gain along the normal per unit impulse, 1/kg.
+    wall_inverse_mass: Column,
     kinds: Vec<L::Coefficients>,
     memory: [ContactMemory<L>; CHUNK],
     advanced: [ContactMemory<L>; CHUNK],
@@ -110,6 +114,7 @@ impl<L: ContactLaw> Default for Chunk<L> {
             radii: [[0.0; CHUNK]; 2],
             overlap: [0.0; CHUNK],
             approach: [0.0; CHUNK],
+            wall_inverse_mass: [0.0; CHUNK],
             kinds: Vec::with_capacity(CHUNK),
             memory: [ContactMemory::<L>::default(); CHUNK],
             advanced: [ContactMemory::<L>::default(); CHUNK],
@@ -120,6 +125,13 @@ impl<L: ContactLaw> Default for Chunk<L> {
 }
 
 impl<L: ForceLaw> Chunk<L> {
+    /// Makes ready for pairs, whose bodies may all be of `only` one radius (m).
+    pub(crate) fn begin_pairs(&mut self, only: Option<f64>) {
+        if let Some(radius) = only {
+            self.radii = [[radius; CHUNK]; 2];
+        }
+    }
+
     /// Takes over the pairs of `bodies`, at most [`CHUNK`] of them.
     #[inline(always)]
     pub(crate) fn gather_pairs<C: Cavity, const PLANAR: bool>(
@@ -141,8 +153,12 @@ impl<L: ForceLaw> Chunk<L> {
             self.velocity.set_polar::<PLANAR>(n, velocity);
             self.spins[0].set_axial::<PLANAR>(n, spin.get(i));
             self.spins[1].set_axial::<PLANAR>(n, spin.get(j));
-            self.radii[0][n] = radius[i];
-            self.radii[1][n] = radius[j];
+        }
+        if scene.coefficients.only_radius().is_none() {
+            for (n, [i, j]) in bodies.iter().take(CHUNK).enumerate() {
+                self.radii[0][n] = radius[*i as usize];
+                self.radii[1][n] = radius[*j as usize];
+            }
         }
     }
 
@@ -153,9 +169,10 @@ impl<L: ForceLaw> Chunk<L> {
         for (n, [slot, wall]) in bodies[..self.count].iter().enumerate() {
             let grain = scene.grain(*slot as usize);
             let point = scene.wall_point(*wall, grain.position);
-            let container = scene.room_of_wall(*wall).motion.velocity;
+            let room = scene.room_of_wall(*wall);
             self.towards.set(n, point.normal);
-            let velocity = grain.velocity - container;
+            self.wall_inverse_mass[n] = room.inverse_mass_along(point.normal);
+            let velocity = grain.velocity - room.motion.velocity;
             self.velocity.set(n, velocity);
             self.spins[0].set(n, grain.spin);
             self.spins[1].set(n, DVec3::ZERO);
@@ -197,9 +214,13 @@ impl<L: ForceLaw> Chunk<L> {
         }
     }
 
-    /// The contact of a number, `elapsed` seconds after its memory was advanced.
+    /// The contact of a number at a moment.
     #[inline(always)]
-    pub(crate) fn contact<const PLANAR: bool>(&self, n: usize, elapsed: f64) -> Contact {
+    pub(crate) fn contact<const PAIRS: bool, const PLANAR: bool>(
+        &self,
+        n: usize,
+        moment: Moment,
+    ) -> Contact {
         let spins = self
             .spins
             .each_ref()
@@ -208,7 +229,13 @@ impl<L: ForceLaw> Chunk<L> {
         let velocity = polar::<PLANAR>(self.velocity.get(n));
         Contact {
             spins,
-            elapsed,
+            elapsed: moment.elapsed,
+            correction: moment.correction,
+            wall_inverse_mass: if PAIRS {
+                0.0
+            } else {
+                self.wall_inverse_mass[n]
+            },
             ..Contact::new(normal, self.overlap[n], velocity)
         }
     }
@@ -221,19 +248,19 @@ impl<L: ForceLaw> Chunk<L> {
         law: &L,
         only: Option<&L::Coefficients>,
         kinds: impl Iterator<Item = L::Coefficients>,
-        elapsed: f64,
+        moment: Moment,
     ) {
         self.meet::<PAIRS, PLANAR>();
         if let Some(only) = only {
             if law.has_couple(only) {
-                self.answer_alike::<PAIRS, END, PLANAR, true>(law, only, elapsed);
+                self.answer_alike::<PAIRS, END, PLANAR, true>(law, only, moment);
             } else {
-                self.answer_alike::<PAIRS, END, PLANAR, false>(law, only, elapsed);
+                self.answer_alike::<PAIRS, END, PLANAR, false>(law, only, moment);
             }
         } else {
             self.kinds.clear();
             self.kinds.extend(kinds);
-            self.answer_mixed::<PAIRS, END, PLANAR>(law, elapsed);
+            self.answer_mixed::<PAIRS, END, PLANAR>(law, moment);
         }
     }
 
@@ -242,11 +269,11 @@ impl<L: ForceLaw> Chunk<L> {
         &mut self,
         law: &L,
         kind: &L::Coefficients,
-        elapsed: f64,
+        moment: Moment,
     ) {
         let kind = *kind;
         for n in 0..self.count.min(CHUNK) {
-            self.answer_one::<PAIRS, END, PLANAR, COUPLE>(law, &kind, n, elapsed);
+            self.answer_one::<PAIRS, END, PLANAR, COUPLE>(law, &kind, n, moment);
         }
     }
 
@@ -254,11 +281,11 @@ impl<L: ForceLaw> Chunk<L> {
     fn answer_mixed<const PAIRS: bool, const END: bool, const PLANAR: bool>(
         &mut self,
         law: &L,
-        elapsed: f64,
+        moment: Moment,
     ) {
         for n in 0..self.kinds.len().min(CHUNK) {
             let kind = self.kinds[n];
-            self.answer_one::<PAIRS, END, PLANAR, true>(law, &kind, n, elapsed);
+            self.answer_one::<PAIRS, END, PLANAR, true>(law, &kind, n, moment);
         }
     }
 
@@ -268,9 +295,9 @@ impl<L: ForceLaw> Chunk<L> {
         law: &L,
         kind: &L::Coefficients,
         n: usize,
-        elapsed: f64,
+        moment: Moment,
     ) {
-        let contact = self.contact::<PLANAR>(n, elapsed);
+        let contact = self.contact::<PAIRS, PLANAR>(n, moment);
         let memory = self.memory[n];
         let answer = law.force(kind, &contact, &memory);
         if END {
@@ -297,7 +324,7 @@ impl<L: ForceLaw> Chunk<L> {
     /// Has `law` answer once more where bodies may have met or may part within the step.
     /// `acceleration` is that of a contact's first centre relative to its second body, as it was
     /// evaluated last (m/s^2).
-    pub(crate) fn mend_edges<const END: bool>(
+    pub(crate) fn mend_edges<const PAIRS: bool, const END: bool>(
         &mut self,
         law: &L,
         only: Option<&L::Coefficients>,
@@ -307,7 +334,8 @@ impl<L: ForceLaw> Chunk<L> {
         for n in 0..self.count.min(CHUNK) {
             if Edge::is_near(self.overlap[n], self.approach[n], moment.time_step) {
                 let kind = only.copied().unwrap_or_else(|| self.kinds[n]);
-                let (contact, answer, memory) = self.ask(law, &kind, n, moment, acceleration(n));
+                let (contact, answer, memory) =
+                    self.ask::<PAIRS>(law, &kind, n, moment, acceleration(n));
                 self.note::<false, true>(n, contact.normal, &answer);
                 if END {
                     self.advanced[n] = memory;
@@ -318,7 +346,7 @@ impl<L: ForceLaw> Chunk<L> {
 
     /// A contact, the answer of the `law` with coefficients `kind`, and what the contact remembers
     /// at the end of the step.
-    pub(crate) fn ask(
+    pub(crate) fn ask<const PAIRS: bool>(
         &self,
         law: &L,
         kind: &L::Coefficients,
@@ -326,8 +354,8 @@ impl<L: ForceLaw> Chunk<L> {
         moment: Moment,
         acceleration: DVec3,
     ) -> (Contact, ContactForce, ContactMemory<L>) {
-        let Moment { elapsed, time_step } = moment;
-        let (contact, memory) = (self.contact::<false>(n, elapsed), &self.memory[n]);
+        let time_step = moment.time_step;
+        let (contact, memory) = (self.contact::<PAIRS, false>(n, moment), &self.memory[n]);
         let (overlap, approach) = (contact.overlap, contact.approach_speed());
         if law.has_edges() && Edge::is_near(overlap, approach, time_step) {
             let edge = Edge::new(time_step, acceleration.dot(contact.normal));

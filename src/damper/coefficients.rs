@@ -47,10 +47,14 @@ impl<K: Copy> Coefficients<K> {
         })
     }
 
-    /// The longest time step that `law` allows for every wall contact and every pair of kinds; of a
+    /// The longest time step that `law` allows for every contact with `wall` and every pair of kinds; of a
     /// long list of kinds, for every kind against itself and against the lightest. Beside it the kind
     /// that sets it, with the other if it is a pair.
-    pub(crate) fn time_step_limit<L>(&self, law: &L) -> Result<(f64, Option<Meeting>), LawError>
+    pub(crate) fn time_step_limit<L>(
+        &self,
+        law: &L,
+        wall: Body,
+    ) -> Result<(f64, Option<Meeting>), LawError>
     where
         L: ContactLaw<Coefficients = K>,
     {
@@ -61,8 +65,8 @@ impl<K: Copy> Coefficients<K> {
                 shortest = (limit, Some((kind as u32, other.map(|kind| kind as u32))));
             }
         };
-        for (kind, wall) in self.walls.iter().enumerate() {
-            heed(wall, kind, None);
+        for (number, kind) in self.kinds.iter().enumerate() {
+            heed(&law.coefficients(&Bodies::new(*kind, wall))?, number, None);
         }
         let count = self.kinds.len();
         if let Some(pairs) = &self.pairs {
@@ -104,6 +108,14 @@ impl<K: Copy> Coefficients<K> {
             (Some(table), None) => table[first as usize * self.kinds.len() + second as usize],
             // A pair is prepared whenever there is no table.
             (None, None) => self.walls[first as usize],
+        }
+    }
+
+    /// The radius of every particle in m, if there is one kind alone.
+    pub(crate) fn only_radius(&self) -> Option<f64> {
+        match self.kinds.as_slice() {
+            [only] => Some(only.radius),
+            _ => None,
         }
     }
 

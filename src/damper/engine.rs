@@ -1,21 +1,22 @@
 //! The engine: everything of a damper but its integrator. It keeps the candidates fresh and turns
 //! the state into accelerations.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::block::{Block, Memories, Place, block_size, room_for};
 use super::cause::Begin;
+use super::chunk::Moment;
 use super::contact_dynamics::ContactSolver;
 use super::error::StepError;
 use super::particles::Particles;
-use super::scene::{Room, WallLoad, World};
+use super::scene::{Room, Scene, WallLoad, World};
 use super::vectors::Vectors;
 use crate::cavity::Cavity;
 use crate::detector::{Detector, Pairs};
 use crate::integrator::Stage;
 use crate::law::{ContactLaw, ForceLaw, ImpulseLaw, LawKind, LawVisitor};
-use crate::mount::{Motion, Mount};
-use crate::observer::Observer;
+use crate::mount::{self, Motion, Mount};
+use crate::observer::{Observer, View};
 use crate::parallel::{Pool, for_each};
 
 /// Coordinates of the mount, followed by three per cavity whose velocity sums up the impulse on its
@@ -198,14 +199,17 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Forces of a stiff law: evaluates the contacts, and turns forces into accelerations.
     fn evaluate_contacts<O: Observer, const END: bool>(
         &mut self,
-        elapsed: f64,
+        moment: Moment,
         observer: &mut O,
     ) -> Result<(), StepError>
     where
         L: ForceLaw,
     {
         let [mut force, mut torque] = std::mem::take(&mut self.scratch.previous);
-        let scene = self.world.scene(&self.particles, elapsed);
+        let scene = Scene {
+            moment,
+            ..self.world.scene(&self.particles, moment.elapsed)
+        };
         let widths = (force.width(), torque.width());
         let sums = (force.flat_mut(), torque.flat_mut());
         let gravity = self.gravity;
@@ -348,6 +352,18 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         Ok(())
     }
 
+    /// Velocity of the second of two containers per unit impulse on the first, 1/kg, row by row.
+    pub(crate) fn container_responses(&self) -> Vec<DMat3> {
+        let cavities = self.world.rooms.len();
+        mount::responses(
+            &self.mount,
+            self.time,
+            self.coordinates(),
+            self.rates(),
+            cavities,
+        )
+    }
+
     /// Begins a step of `time_step` (s): an impulse law works out what holds over it.
     pub(crate) fn begin_step<O: Observer>(
         &mut self,
@@ -391,13 +407,17 @@ where
         L: ForceLaw,
     {
         self.engine.find_contacts(self.afresh)?;
+        let predicted = self.stage == Stage::Predicted;
+        let moment = Moment {
+            elapsed: self.elapsed,
+            correction: if predicted { 0.5 * self.elapsed } else { 0.0 },
+            time_step: self.engine.world.time_step,
+        };
         match self.stage {
-            Stage::Trial => self
+            Stage::Trial => self.engine.evaluate_contacts::<(), false>(moment, &mut ()),
+            Stage::End | Stage::Predicted => self
                 .engine
-                .evaluate_contacts::<(), false>(self.elapsed, &mut ()),
-            Stage::End => self
-                .engine
-                .evaluate_contacts::<O, true>(self.elapsed, self.observer),
+                .evaluate_contacts::<O, true>(moment, self.observer),
         }
     }
 

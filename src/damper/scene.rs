@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::candidates::Candidates;
 use super::chunk::Moment;
@@ -27,6 +27,8 @@ pub(crate) struct Room<C> {
     pub(crate) first_wall: u32,
     /// Where its container is, and how it moves.
     pub(crate) motion: Motion,
+    /// Inverse effective mass of the container: velocity that it gains per unit impulse, 1/kg.
+    pub(crate) inverse_mass: DMat3,
     /// How much farther than the law's reach candidates are listed, m: they can be trusted while no
     /// particle has moved by half of it.
     pub(crate) margin: f64,
@@ -67,8 +69,11 @@ impl<C: Cavity, L: ContactLaw> World<C, L> {
             inverse_inertia: &particles.inverse_inertia,
             species: &particles.species,
             number: &particles.number,
-            elapsed,
-            time_step: self.time_step,
+            moment: Moment {
+                elapsed,
+                correction: 0.0,
+                time_step: self.time_step,
+            },
             stamp: self.stamp,
             planar: self.planar(),
             reach: self.reach,
@@ -108,10 +113,8 @@ pub(crate) struct Scene<'a, C, L: ContactLaw> {
     pub(crate) inverse_inertia: &'a [f64],
     pub(crate) species: &'a [u32],
     pub(crate) number: &'a [u32],
-    /// Time since memories were advanced, s.
-    pub(crate) elapsed: f64,
-    /// Length of the step, s.
-    pub(crate) time_step: f64,
+    /// When in the step this is.
+    pub(crate) moment: Moment,
     /// Number of the last accepted step.
     pub(crate) stamp: u32,
     /// Whether everything moves in the plane z = 0.
@@ -180,6 +183,19 @@ impl<C: Cavity> Room<C> {
 }
 
 impl<C> Room<C> {
+    /// Velocity along `normal` that the container gains per unit impulse along it, 1/kg.
+    #[inline(always)]
+    pub(crate) fn inverse_mass_along(&self, normal: DVec3) -> f64 {
+        normal.dot(self.inverse_mass * normal)
+    }
+
+    /// The greatest velocity that the container gains per unit impulse in any direction, from above
+    /// (Gershgorin), 1/kg.
+    pub(crate) fn greatest_inverse_mass(&self) -> f64 {
+        let rows = [0, 1, 2].map(|row| self.inverse_mass.row(row).abs().element_sum());
+        rows.into_iter().fold(0.0, f64::max)
+    }
+
     /// The slots among `slots` whose particles are in this room.
     pub(crate) fn slots_in(&self, slots: &Range<usize>) -> Range<usize> {
         let start = self.slots.start.clamp(slots.start, slots.end);
@@ -216,15 +232,6 @@ impl<C: Cavity, L: ContactLaw> Scene<'_, C, L> {
     pub(crate) fn room_of(&self, slot: u32) -> usize {
         self.rooms
             .partition_point(|room| room.slots.end <= slot as usize)
-    }
-
-    /// When in the step this is.
-    #[inline(always)]
-    pub(crate) const fn moment(&self) -> Moment {
-        Moment {
-            elapsed: self.elapsed,
-            time_step: self.time_step,
-        }
     }
 
     /// How a wall stands to a point of the fixed frame.

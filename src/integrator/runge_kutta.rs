@@ -6,8 +6,8 @@ use crate::parallel::{update, update_by_two};
 /// last of which serves as the next step's first.
 ///
 /// Fourth order holds for mounts, free flight and contacts that last. An impact is of second order, as
-/// under [`VelocityVerlet`](super::VelocityVerlet), with a tenth of its error at 100 steps to a contact
-/// and a half of it at six.
+/// under [`VelocityVerlet`](super::VelocityVerlet), with a half of its error at 100 steps to a contact
+/// but more at coarse ones: at six the mean restitution is up to 0.016 too low here, 0.003 too high there.
 #[derive(Debug, Clone, Default)]
 pub struct RungeKutta4 {
     groups: [Tableau; 3],

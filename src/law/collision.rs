@@ -91,7 +91,7 @@ impl<'l, L: ForceLaw> Collision<'l, L> {
         [self.bodies.first, self.bodies.second][number]
     }
 
-    fn contact(&self, elapsed: f64) -> Contact {
+    fn contact(&self, elapsed: f64, correction: f64) -> Contact {
         let reach = self.bodies.first.radius;
         let mut contact = if self.bodies.at_wall() {
             let lever = -reach * DVec3::Y;
@@ -107,6 +107,7 @@ impl<'l, L: ForceLaw> Collision<'l, L> {
         };
         contact.spins = both(&self.spin);
         contact.elapsed = elapsed;
+        contact.correction = correction;
         contact
     }
 
@@ -131,7 +132,7 @@ impl<'l, L: ForceLaw> Collision<'l, L> {
 
     /// Normal relative velocity, positive when separating.
     pub(super) fn separation_speed(&self) -> f64 {
-        -self.contact(0.0).approach_speed()
+        -self.contact(0.0, 0.0).approach_speed()
     }
 
     /// Steps until the bodies have parted; returns how long they touched.
@@ -148,7 +149,7 @@ impl<'l, L: ForceLaw> Collision<'l, L> {
 
     /// The same with `steps` to an elastic contact at the speed of approach.
     pub(super) fn run_in(&mut self, integrator: &mut impl Integrator, steps: f64) -> f64 {
-        let slow = self.contact(0.0).approach_speed();
+        let slow = self.contact(0.0, 0.0).approach_speed();
         let impact = super::HertzTsuji::new(Material::acrylic()).elastic_impact(&self.bodies, slow);
         self.run(integrator, impact.unwrap().duration() / steps)
     }
@@ -184,7 +185,8 @@ impl<L: ForceLaw> System for Collision<'_, L> {
     }
 
     fn evaluate(&mut self, elapsed: f64, stage: Stage) -> Result<(), StepError> {
-        let contact = self.contact(elapsed);
+        let predicted = stage == Stage::Predicted;
+        let contact = self.contact(elapsed, if predicted { 0.5 * elapsed } else { 0.0 });
         let [ahead, behind] = both(&self.acceleration);
         let edge = Edge::new(self.time_step, (ahead - behind).dot(contact.normal));
         self.previous = [self.acceleration.clone(), self.spin_rate.clone()];
@@ -208,7 +210,7 @@ impl<L: ForceLaw> System for Collision<'_, L> {
             self.peak.0 = self.peak.0.max(contact.overlap);
             self.peak.1 = self.peak.1.max(answer.normal);
         }
-        if stage == Stage::End {
+        if stage != Stage::Trial {
             self.touching = touching;
             self.memory = advanced;
         }

@@ -88,6 +88,16 @@ impl Damping {
         }
     }
 
+    /// What a damping coefficient is multiplied by where the effective mass is `part` of what it was, so
+    /// that the damping number stays.
+    #[inline]
+    pub(super) fn of_mass(self, part: f64) -> f64 {
+        match self {
+            Self::Viscoelastic => libm::pow(part, 0.4),
+            Self::Tsuji => part.sqrt(),
+        }
+    }
+
     /// The power of the overlap that the force grows with.
     pub(super) const fn power(self) -> Power {
         match self {

@@ -6,6 +6,27 @@
 //! the time x h from first touch to the first evaluation (Navot 1961, doi 10.1002/sapm1961401271). The
 //! one evaluation that is within h of the touch can make up for that. What is left is of order h^2 and
 //! better, where it was h^(5/4) to h^(5/2).
+//!
+//! The mean restitution over the phase of first touch would be as right without it. What it is for is
+//! the spread: at six steps to a contact, with restitutions from 0.3 to 0.95, that of the farthest phase
+//! is off by 0.013 instead of 0.060. Its price is 5 to 10 % of the time of a step.
+
+use super::damping::Ending;
+use super::normal::{Normal, NormalCoefficients, NormalForce};
+use super::{at_least, at_most};
+use crate::contact::{Contact, Edge};
+
+/// Relative error of an overlap against the way in a step.
+const ROUNDING: f64 = 1e-6;
+
+/// Where a contact begins, its speed falls during the step like an exponential rather than a line. Of
+/// 0, 0.1 ... 0.6 this part leaves the least mean error of restitutions from 0.3 to 0.95 at 4.5 and at
+/// 6 steps to a contact: 1.5 % and 0.5 % of the restitution, with either damping.
+const SLOWED: f64 = 0.5;
+
+/// How often the end of a pull is worked out: with three rounds the restitution is within 0.1 % of that
+/// with twenty.
+const ENDINGS: usize = 3;
 
 /// Powers of time that forces set in with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,6 +63,98 @@ impl Power {
         let inverse = 1.0 / x;
         let cube = inverse * inverse * inverse;
         self.of(x) * (x / (p + 1.0) - 0.5 + p / 12.0 * inverse - third * cube)
+    }
+}
+
+/// What evaluations see of a spring and a dashpot where a contact begins or ends.
+#[derive(Debug, Clone, Copy)]
+struct Sampled {
+    own: NormalCoefficients,
+    power: Power,
+}
+
+impl Sampled {
+    /// Force of the spring (N) and damping force per speed (N s/m) that the evaluation at `part` of a
+    /// step after the touch has to give, if the bodies come by `way` (m) in a step.
+    fn at(&self, way: f64, part: f64) -> (f64, f64) {
+        let NormalCoefficients {
+            stiffness, damping, ..
+        } = self.own;
+        let spring = stiffness * Power::ThreeHalves.of(way) * Power::ThreeHalves.sampled(part);
+        (
+            spring,
+            damping * self.power.of(way) * self.power.sampled(part),
+        )
+    }
+
+    /// The first force of a contact. `gain` is the speed that a force takes away until the end of the
+    /// step, per unit of it.
+    fn first(&self, coming: f64, way: f64, part: f64, gain: f64) -> f64 {
+        let (spring, resistance) = self.at(way, part);
+        // The dashpot acts from the touch to half a step from now, with this mean.
+        let slowing = resistance * gain / (part + 0.5);
+        (spring + resistance * coming) / (1.0 + slowing / (1.0 + SLOWED * slowing))
+    }
+}
+
+impl NormalForce {
+    /// The normal force where the bodies may have met or may part within a step h of now, with what
+    /// evaluations h apart miss made up for; `before` (N) was that at the end of the step before.
+    pub(super) fn at_edge(
+        &self,
+        coefficients: &NormalCoefficients,
+        contact: &Contact,
+        before: f64,
+        edge: &Edge,
+    ) -> Normal {
+        let mut normal = self.at(coefficients, contact, before);
+        let own = coefficients.yielding(self.damping, contact);
+        let (overlap, h) = (contact.overlap, edge.time_step);
+        // The mean speed since the step began, which is that of touch if they touched since; before its
+        // end they may have touched in the step before, and the speed at its start is nearer.
+        let back = if contact.elapsed < h { 1.0 } else { 0.5 } * contact.elapsed;
+        // A wall that yields gives way to the force that it bore.
+        let acceleration = edge.acceleration + before * contact.wall_inverse_mass;
+        let coming = contact.approach_speed() + back * acceleration;
+        let gain = own.mobility * contact.correction;
+        let power = self.damping.power();
+        let sampled = Sampled { own, power };
+        let way = coming * h;
+        // To within rounding, what tells whether they touched already as the step began is whether they
+        // were slowed down then.
+        let part = overlap / way;
+        let in_step = if (part - 1.0).abs() < ROUNDING {
+            acceleration < 0.5 * own.mobility * sampled.first(coming, way, 0.0, gain)
+        } else {
+            overlap < way
+        };
+        if in_step {
+            normal.force = sampled.first(coming, way, part, gain);
+            return normal;
+        }
+        // A contact ends as it sets in, but that damping fades out smoothly where it never pulls.
+        let leaving = |force: f64| force * h * own.mobility - coming;
+        let mut way = leaving(normal.force) * h;
+        if contact.approach_speed() > 0.0 || overlap > way {
+            return normal;
+        }
+        if self.ending == Ending::NeverPulling || gain == 0.0 {
+            let part = overlap / way;
+            let more = Power::ThreeHalves.sampled(part) - Power::ThreeHalves.of(part);
+            let spring = own.stiffness * Power::ThreeHalves.of(way) * more;
+            normal.force = self.ended(normal.force + spring);
+            return normal;
+        }
+        // A pull slows the bodies down, and so its end depends on the pull.
+        let speed = contact.approach_speed() + before * gain;
+        for _ in 0..ENDINGS {
+            let part = at_most(overlap / way, 1.0);
+            let (spring, resistance) = sampled.at(way, part);
+            let slowing = resistance * gain * (2.0 - 1.0 / (part + 0.5));
+            normal.force = (spring + resistance * speed) / (1.0 + slowing);
+            way = at_least(leaving(normal.force) * h, overlap);
+        }
+        normal
     }
 }
 

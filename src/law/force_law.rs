@@ -16,9 +16,12 @@ use crate::contact::{Contact, ContactForce, Edge, Stored};
 ///    the default; [`advance`](Self::advance) is called once per accepted step for each contact
 ///    that touches, and a contact that separates forgets. A law without memory uses `()` and pays
 ///    nothing.
-/// 3. Forces are taken step by step, and what they miss of an impact where it begins and ends between
+/// 3. Velocities can be predicted with the forces of the step before: a force that damps strongly should
+///    then be worked out with the velocity that it leaves itself ([`Contact::correction`], and what
+///    [`HertzTsuji`](crate::HertzTsuji#impacts-in-few-steps) does with it).
+/// 4. Forces are taken step by step, and what they miss of an impact where it begins and ends between
 ///    two of them can be made up for: see [`at_edge`](Self::at_edge).
-/// 4. [`stored`](Self::stored) tells energy that a contact holds from energy that it has lost. It is
+/// 5. [`stored`](Self::stored) tells energy that a contact holds from energy that it has lost. It is
 ///    asked only by observers; by default all of the force's work counts as lost, or as a negative
 ///    loss where it is given back.
 ///

@@ -66,6 +66,8 @@ pub struct TangentialSpring {
     slip: DVec3,
     /// Square root of the overlap in m^(1/2).
     root: f64,
+    /// Normal force in N.
+    force: f64,
 }
 
 /// The tangential force at one instant, in parts.
@@ -171,7 +173,7 @@ impl ForceLaw for HertzMindlin {
         contact: &Contact,
         memory: &TangentialSpring,
     ) -> ContactForce {
-        let normal = self.normal.at(&coefficients.normal, contact);
+        let normal = self.normal.at(&coefficients.normal, contact, memory.force);
         ContactForce {
             normal: normal.force,
             tangential: self
@@ -190,12 +192,13 @@ impl ForceLaw for HertzMindlin {
         contact: &Contact,
         memory: &TangentialSpring,
     ) -> TangentialSpring {
-        let normal = self.normal.at(&coefficients.normal, contact);
+        let normal = self.normal.at(&coefficients.normal, contact, memory.force);
         let Tangential { load, slip, .. } = self.tangential(coefficients, contact, &normal, memory);
         TangentialSpring {
             load,
             slip,
             root: normal.root,
+            force: normal.force,
         }
     }
 
@@ -216,7 +219,8 @@ impl ForceLaw for HertzMindlin {
         memory: &TangentialSpring,
         edge: &Edge,
     ) -> (ContactForce, TangentialSpring) {
-        let normal = self.normal.at_edge(&coefficients.normal, contact, edge);
+        let own = &coefficients.normal;
+        let normal = self.normal.at_edge(own, contact, memory.force, edge);
         let Tangential { load, slip, force } =
             self.tangential(coefficients, contact, &normal, memory);
         let answer = ContactForce {
@@ -226,8 +230,13 @@ impl ForceLaw for HertzMindlin {
                 .rolling
                 .couple(contact, at_least(normal.force, 0.0)),
         };
-        let root = normal.root;
-        (answer, TangentialSpring { load, slip, root })
+        let memory = TangentialSpring {
+            load,
+            slip,
+            root: normal.root,
+            force: normal.force,
+        };
+        (answer, memory)
     }
 
     fn stored(
@@ -249,7 +258,7 @@ impl ForceLaw for HertzMindlin {
         let [load, slip] = [memory.load, memory.slip].map(|vector| vector.to_array());
         load.into_iter()
             .chain(slip)
-            .chain([memory.root])
+            .chain([memory.root, memory.force])
             .for_each(tell);
     }
 }

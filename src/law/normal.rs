@@ -3,10 +3,9 @@
 use std::f64::consts::PI;
 
 use super::damping::{Damping, Ending};
-use super::edge::Power;
 use super::hertz::ElasticImpact;
 use super::{LawError, at_least};
-use crate::contact::{Bodies, Contact, Edge, Stored};
+use crate::contact::{Bodies, Contact, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::{Interaction, Material, MaterialId, Materials};
 
@@ -23,9 +22,6 @@ const GAIN: f64 = 4.0;
 /// 4/50^3, and a thousand bounces of one ball change its energy by less than 1e-4.
 const ELASTIC_STEPS: f64 = 50.0;
 
-/// Relative error of an overlap against the way in a step.
-const ROUNDING: f64 = 1e-6;
-
 /// The fewest steps to a contact in which damping takes more energy than integration can add to an
 /// oscillation `quickness` times as fast as the contact's own.
 fn fewest_steps(restitution: f64, quickness: f64) -> f64 {
@@ -37,8 +33,8 @@ fn fewest_steps(restitution: f64, quickness: f64) -> f64 {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct NormalForce {
     materials: Materials,
-    damping: Damping,
-    ending: Ending,
+    pub(super) damping: Damping,
+    pub(super) ending: Ending,
     reference_speed: f64,
     /// The damping number of each ordered pair of materials, row by row.
     numbers: Vec<Result<f64, ValueError>>,
@@ -49,11 +45,34 @@ pub(super) struct NormalForce {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct NormalCoefficients {
     /// k in N/m^(3/2).
-    stiffness: f64,
+    pub(super) stiffness: f64,
     /// c in N s/m^(3/2) or N s/m^(5/4).
-    damping: f64,
+    pub(super) damping: f64,
     /// 1/m* in 1/kg.
-    mobility: f64,
+    pub(super) mobility: f64,
+}
+
+/// What a contact under [`HertzTsuji`](crate::HertzTsuji) remembers: the normal force at the end of the
+/// step before. Velocities are predicted with it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct NormalHistory {
+    /// The force in N.
+    pub(super) force: f64,
+}
+
+impl NormalCoefficients {
+    /// With the effective mass that the bodies have where the wall yields: a damping number then means
+    /// another damping coefficient ([`Damping::coefficient`]).
+    #[inline(always)]
+    pub(super) fn yielding(mut self, damping: Damping, contact: &Contact) -> Self {
+        if contact.wall_inverse_mass > 0.0 {
+            let at_rest = self.mobility;
+            self.mobility += contact.wall_inverse_mass;
+            self.damping *= damping.of_mass(at_rest / self.mobility);
+        }
+        self
+    }
 }
 
 /// The normal force at one instant, in parts.
@@ -187,8 +206,15 @@ impl NormalForce {
         Ok((coefficients, longest))
     }
 
+    /// The normal force, after one of `before` (N) at the end of the step before.
     #[inline(always)]
-    pub(super) fn at(&self, coefficients: &NormalCoefficients, contact: &Contact) -> Normal {
+    pub(super) fn at(
+        &self,
+        coefficients: &NormalCoefficients,
+        contact: &Contact,
+        before: f64,
+    ) -> Normal {
+        let coefficients = coefficients.yielding(self.damping, contact);
         // Rounding can leave touching bodies with an overlap of zero, or a hair less.
         let overlap = at_least(contact.overlap, f64::MIN_POSITIVE);
         let root = overlap.sqrt();
@@ -198,7 +224,9 @@ impl NormalForce {
         };
         let resistance = coefficients.damping * shape;
         let spring = coefficients.stiffness * overlap * root;
-        let force = spring + resistance * contact.approach_speed();
+        let gain = coefficients.mobility * contact.correction;
+        let speed = contact.approach_speed() + before * gain;
+        let force = (spring + resistance * speed) / (1.0 + resistance * gain);
         Normal {
             root,
             resistance,
@@ -207,60 +235,11 @@ impl NormalForce {
     }
 
     #[inline(always)]
-    fn ended(&self, force: f64) -> f64 {
+    pub(super) fn ended(&self, force: f64) -> f64 {
         match self.ending {
             Ending::NeverPulling => at_least(force, 0.0),
             Ending::PullingAllowed => force,
         }
-    }
-
-    /// The normal force where the bodies may have met or may part within a step h of now: with what
-    /// evaluations h apart miss made up for ([`edge`](super::edge)).
-    pub(super) fn at_edge(
-        &self,
-        coefficients: &NormalCoefficients,
-        contact: &Contact,
-        edge: &Edge,
-    ) -> Normal {
-        let mut normal = self.at(coefficients, contact);
-        let NormalCoefficients {
-            stiffness,
-            damping,
-            mobility,
-        } = *coefficients;
-        let (overlap, h) = (contact.overlap, edge.time_step);
-        // The mean speed since the step began, which is that of touch if they touched since; before its
-        // end they may have touched in the step before, and the speed at its start is nearer.
-        let back = if contact.elapsed < h { 1.0 } else { 0.5 } * contact.elapsed;
-        let coming = contact.approach_speed() + back * edge.acceleration;
-        let way = coming * h;
-        let met = |part: f64| {
-            let power = self.damping.power();
-            let spring = stiffness * Power::ThreeHalves.of(way) * Power::ThreeHalves.sampled(part);
-            spring + damping * coming * power.of(way) * power.sampled(part)
-        };
-        // To within rounding, what tells whether they touched already as the step began is whether they
-        // were slowed down then.
-        let part = overlap / way;
-        let in_step = if (part - 1.0).abs() < ROUNDING {
-            edge.acceleration < 0.5 * mobility * met(0.0)
-        } else {
-            overlap < way
-        };
-        if in_step {
-            normal.force = met(part);
-            return normal;
-        }
-        // A spring ends as it sets in. Where damping ends, the force is smooth if it never pulls, and
-        // a pull slows the bodies so much that the end cannot be foretold.
-        let way = (normal.force * h * mobility - coming) * h;
-        if contact.approach_speed() < 0.0 && overlap < way {
-            let part = overlap / way;
-            let more = Power::ThreeHalves.sampled(part) - Power::ThreeHalves.of(part);
-            let spring = stiffness * Power::ThreeHalves.of(way) * more;
-            normal.force = self.ended(normal.force + spring);
-        }
-        normal
     }
 
     /// Hertz's force and energy, 2/5 k d^(5/2); `tangential` is the energy (J) of the stretch.

@@ -33,11 +33,13 @@ struct Balance {
 /// Verlet's method changes kinetic energy by just that. What other integrators do at their stages
 /// besides is known from the change of momentum, and is shared among the normal forces. Losses are
 /// that work less what the contacts [store](Stored): along the normal, and across it by slip and
-/// rolling. So the losses along the normal hold what a coarse step takes from elastic forces, too;
-/// [`integration_loss`](Self::integration_loss) tells it apart: with the paper's damper at resonance
-/// (6 Hz, 20 particles, 40 periods) it is 3.0 % of the input at a step of 2e-5 s, six to an impact
-/// (0.6 % with [`RungeKutta4`](crate::RungeKutta4)), and falls as the step squared, to 0.04 % at
-/// 2.5e-6 s. It is real: impacts in six steps rebound that much less. Powers of the mount are summed by the
+/// rolling. So the losses along the normal are those of the impacts as they happen, at a coarse step,
+/// too. What the law's damping, summed up by itself, does not explain of them is told apart by
+/// [`integration_loss`](Self::integration_loss): with the paper's damper at resonance (6 Hz, 20
+/// particles, 40 periods) it is 3.0 % of the input at a step of 2e-5 s, six to an impact (0.5 % with
+/// [`RungeKutta4`](crate::RungeKutta4)), and falls as the step squared, to 0.04 % at 2.5e-6 s. It says
+/// how well the step resolves impacts, not how far restitution is off, which is less: see
+/// [`guide::trust`](crate::guide::trust#steps-to-a-contact). Powers of the mount are summed by the
 /// trapezoidal rule.
 /// Where a mount has no coordinates, the input is the work of moving its containers against the
 /// particles.
@@ -109,8 +111,8 @@ impl EnergyLedger {
     }
 
     /// Part of the [losses](Self::losses) along the normal, in J, that the law's damping does not
-    /// explain: what the time step, too coarse for the contacts, takes from elastic forces
-    /// (negative: gives). Zero under an impulse law.
+    /// explain when it is summed up by itself: what a time step too coarse for the contacts leaves open
+    /// between elastic forces and damping. Zero under an impulse law.
     #[must_use]
     pub fn integration_loss(&self) -> f64 {
         if self.held {

@@ -16,6 +16,8 @@ pub(crate) mod mfix;
 pub(crate) mod oblique;
 pub(crate) mod paper_system;
 pub(crate) mod rest;
+pub(crate) mod restitution;
+pub(crate) mod size_ratio;
 
 use case::Case;
 
@@ -40,6 +42,8 @@ pub(crate) const FAMILIES: &[Family] = &[
     ("inelastic", inelastic::cases),
     ("paper_system", paper_system::cases),
     ("integrators", integrators::cases),
+    ("restitution", restitution::cases),
+    ("size_ratio", size_ratio::cases),
     ("energy", energy::cases),
     ("rest", rest::cases),
     ("defects", defects::cases),

@@ -4,8 +4,8 @@
 //! second derivative, c d^(1/2) d' an infinite first one. Left to itself a step across that point errs
 //! as its length to the power 5/2 and 3/2 (5/4 with d^(1/4)), once per contact, whatever the order of
 //! the method. The strict laws make up for it at first touch, which leaves the second order of all
-//! else, under [`RungeKutta4`] with a tenth of the error; where a pull ends a contact it is not made up
-//! for. Errors are taken over all phases of first touch.
+//! else; where a pull ends a contact they do so under [`VelocityVerlet`] alone. Errors are taken over all
+//! phases of first touch.
 
 use std::f64::consts::TAU;
 
@@ -24,7 +24,7 @@ use super::setup::{acrylic, collide, hertz_constant, hertz_duration, paper_parti
 
 const ORDER: &str =
     "order of the method; Hairer, Norsett & Wanner 1993, doi 10.1007/978-3-540-78862-1";
-const KINK: &str = "second order but for the end of a pull, t^(p+1) of a force t^p; Navot 1961, doi 10.1002/sapm1961401271";
+const KINK: &str = "second order but for the end of a pull under Runge-Kutta, t^(p+1) of a force t^p; Navot 1961, doi 10.1002/sapm1961401271";
 
 const MANUAL: &str = "what the page guide::trust says of steps to a contact";
 
@@ -197,6 +197,10 @@ fn contacts() -> Vec<Case> {
             ("RungeKutta4", [64.0, 1024.0, 100.0].map(kutta)),
         ] {
             let name = |what| format!("{integrator}, Hertz impact, {name}, e {e}: {what}");
+            let expected = match integrator {
+                "VelocityVerlet" => f64::max(expected, 2.0),
+                _ => expected,
+            };
             // Never worse, by more than chance among sixteen phases.
             let least = -order(coarse, fine, 16.0);
             cases.push(Case::bounded(
@@ -226,11 +230,11 @@ fn contacts() -> Vec<Case> {
 fn steps_to_a_contact() -> Vec<Case> {
     let mut cases = Vec::new();
     for (steps, bounds) in [
-        (6.0, [0.06, 0.03]),
-        (8.0, [0.035, 0.02]),
-        (20.0, [0.006, 0.004]),
-        (50.0, [9e-4, 1.5e-3]),
-        (100.0, [3e-4, 2e-4]),
+        (6.0, [0.014, 0.03]),
+        (8.0, [0.006, 0.019]),
+        (12.0, [2.6e-3, 0.0094]),
+        (20.0, [9e-4, 1.4e-3]),
+        (50.0, [1.4e-4, 1.4e-4]),
     ] {
         let worst = |errors: &dyn Fn(Damping, f64) -> f64| {
             let both = [Damping::Viscoelastic, Damping::Tsuji].into_iter();

@@ -55,6 +55,7 @@ impl<L: ForceLaw> Block<L> {
         let base = self.slots.start;
         let chunk = &mut *self.chunk;
         let mut deepest = 0.0_f64;
+        chunk.begin_pairs(scene.coefficients.only_radius());
         let list = &mut self.pairs;
         for run in runs(list.contacts.len()) {
             answer_pairs::<C, L, END, PLANAR>(scene, list, chunk, run.clone());
@@ -209,10 +210,10 @@ fn answer_pairs<C: Cavity, L: ForceLaw, const END: bool, const PLANAR: bool>(
         scene.coefficients.pair(first, second, own)
     });
     let only = scene.coefficients.only_pair();
-    chunk.answer::<true, END, PLANAR>(scene.law, only, kinds, scene.elapsed);
+    chunk.answer::<true, END, PLANAR>(scene.law, only, kinds, scene.moment);
     if scene.law.has_edges() {
         let acceleration = |n: usize| acceleration_of_pair(scene, bodies[n]);
-        chunk.mend_edges::<END>(scene.law, only, scene.moment(), acceleration);
+        chunk.mend_edges::<true, END>(scene.law, only, scene.moment, acceleration);
     }
     if END {
         list.keep_run(run, scene.stamp.wrapping_add(1), chunk.advanced());
@@ -235,10 +236,10 @@ fn answer_walls<C: Cavity, L: ForceLaw, const END: bool, const PLANAR: bool>(
         *scene.coefficients.wall(species)
     });
     let only = scene.coefficients.only_wall();
-    chunk.answer::<false, END, PLANAR>(scene.law, only, kinds, scene.elapsed);
+    chunk.answer::<false, END, PLANAR>(scene.law, only, kinds, scene.moment);
     if scene.law.has_edges() {
         let acceleration = |n: usize| scene.acceleration.get(bodies[n][0] as usize);
-        chunk.mend_edges::<END>(scene.law, only, scene.moment(), acceleration);
+        chunk.mend_edges::<false, END>(scene.law, only, scene.moment, acceleration);
     }
     if END {
         list.keep_run(run, scene.stamp.wrapping_add(1), chunk.advanced());

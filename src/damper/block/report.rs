@@ -28,7 +28,8 @@ pub(super) fn report_pairs<C: Cavity, L: ForceLaw>(
         let (first, second) = (scene.species[slot], scene.species[other]);
         let kind = scene.coefficients.pair(first, second, prepared);
         let acceleration = acceleration_of_pair(scene, bodies);
-        let (contact, force, memory) = chunk.ask(scene.law, &kind, n, scene.moment(), acceleration);
+        let (contact, force, memory) =
+            chunk.ask::<true>(scene.law, &kind, n, scene.moment, acceleration);
         observer.contact(&ContactEvent {
             particle: scene.number[slot] as usize,
             partner: Partner::Particle(scene.number[other] as usize),
@@ -55,7 +56,8 @@ pub(super) fn report_walls<C: Cavity, L: ForceLaw>(
         let (slot, wall) = (*slot as usize, *wall);
         let kind = scene.coefficients.wall(scene.species[slot]);
         let acceleration = scene.acceleration.get(slot);
-        let (contact, force, memory) = chunk.ask(scene.law, kind, n, scene.moment(), acceleration);
+        let (contact, force, memory) =
+            chunk.ask::<false>(scene.law, kind, n, scene.moment, acceleration);
         observer.contact(&ContactEvent {
             particle: scene.number[slot] as usize,
             partner: Partner::Wall(wall - scene.room_of_wall(wall).first_wall),

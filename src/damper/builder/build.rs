@@ -4,6 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::Builder;
 use crate::cavity::Cavity;
+use crate::contact::Body;
 use crate::damper::block::{BLOCK, memories};
 use crate::damper::cause::Begin;
 use crate::damper::clock::Clock;
@@ -19,7 +20,7 @@ use crate::detector::Detector;
 use crate::error::{Bound, ValueError};
 use crate::integrator::{Integrator, Stage};
 use crate::law::{ContactLaw, ForceLaw, ImpulseLaw, LawKind, LawVisitor};
-use crate::mount::{Motion, Mount};
+use crate::mount::{self, Motion, Mount};
 use crate::parallel::Pool;
 use crate::particle::Particle;
 
@@ -51,11 +52,16 @@ where
         let particles = Particles::new(&self.particles, numbers, planar);
         let coefficients = Coefficients::new(&self.law, &particles.kinds, self.wall_material)?;
         L::Kind::accept(CheckLaw(&self.law))?;
-        let time_step = self.choose_time_step(&coefficients, &particles)?;
         let smallest = smallest_radius(&particles.kinds);
-        let rooms = self.rooms(smallest);
+        let mount_state = MountState::new(&self.mount, self.cavities.len());
+        let rooms = self.rooms(smallest, &mount_state);
+        let yielding = rooms.iter().map(Room::greatest_inverse_mass);
+        let wall = Body {
+            mass: 1.0 / yielding.fold(0.0, f64::max),
+            ..Body::wall(self.wall_material)
+        };
+        let time_step = self.choose_time_step(&coefficients, wall, &particles)?;
         let walls = Engine::<C, L, M, D>::wall_count(&rooms);
-        let mount_state = MountState::new(&self.mount, rooms.len());
         let mut engine = Engine {
             scratch: Scratch::new(&particles, mount_state.acceleration.len()),
             mount_state,
@@ -209,7 +215,11 @@ where
         numbers
     }
 
-    fn rooms(&mut self, smallest_radius: f64) -> Vec<Room<C>> {
+    fn rooms(&mut self, smallest_radius: f64, state: &MountState) -> Vec<Room<C>> {
+        let count = self.cavities.len();
+        let degrees = self.mount.degrees();
+        let (x, v) = (&state.position[..degrees], &state.velocity[..degrees]);
+        let responses = mount::responses(&self.mount, self.start_time, x, v, count);
         let (mut slot, mut wall) = (0, 0);
         let mut rooms = Vec::new();
         for (number, cavity) in std::mem::take(&mut self.cavities).into_iter().enumerate() {
@@ -227,6 +237,10 @@ where
                 slots: slot..end,
                 first_wall: wall,
                 motion: Motion::default(),
+                inverse_mass: responses
+                    .get(number * (count + 1))
+                    .copied()
+                    .unwrap_or_default(),
                 margin,
             });
             slot = end;

@@ -1,6 +1,7 @@
 //! The longest step that every part bears.
 
 use super::Builder;
+use crate::contact::Body;
 use crate::damper::coefficients::Coefficients;
 use crate::damper::error::{BuildError, StepBound};
 use crate::damper::particles::Particles;
@@ -18,13 +19,15 @@ const PER_FEATURE: f64 = 10.0;
 type Limit = (f64, Option<StepBound>);
 
 impl<C, L: ContactLaw, M: Mount, D, I> Builder<C, L, M, D, I> {
-    /// The step that was asked for, or half of what the law bears and no more than the others do.
+    /// The step that was asked for, or half of what the law bears and no more than the others do; `wall`
+    /// yields like the lightest container.
     pub(super) fn choose_time_step(
         &self,
         coefficients: &Coefficients<L::Coefficients>,
+        wall: Body,
         particles: &Particles,
     ) -> Result<f64, BuildError> {
-        let contacts = self.contacts_bear(coefficients, particles)?;
+        let contacts = self.contacts_bear(coefficients, wall, particles)?;
         let others = shorter(self.mount_bears()?, self.excitation_bears()?);
         if let Some(time_step) = self.time_step {
             return match shorter(contacts, others) {
@@ -47,9 +50,10 @@ impl<C, L: ContactLaw, M: Mount, D, I> Builder<C, L, M, D, I> {
     fn contacts_bear(
         &self,
         coefficients: &Coefficients<L::Coefficients>,
+        wall: Body,
         particles: &Particles,
     ) -> Result<Limit, LawError> {
-        let (limit, kinds) = coefficients.time_step_limit(&self.law)?;
+        let (limit, kinds) = coefficients.time_step_limit(&self.law, wall)?;
         let example = |kind: u32| {
             let mut slots = particles.species.iter().zip(&particles.number);
             slots.find_map(|(species, number)| (*species == kind).then_some(*number as usize))

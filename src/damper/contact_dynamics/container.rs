@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 
 use crate::cavity::Cavity;
 use crate::damper::engine::Engine;
-use crate::damper::space::{Space, Volume};
+use crate::damper::space::Space;
 use crate::detector::Detector;
 use crate::law::ContactLaw;
 use crate::mount::Mount;
@@ -72,13 +72,6 @@ impl<S: Space> Containers<S> {
 }
 
 impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
-    /// Velocity of the second of two containers per unit impulse on the first, 1/kg, row by row.
-    pub(crate) fn container_responses(&self) -> Vec<DMat3> {
-        let mut containers = Containers::<Volume>::default();
-        self.free_containers(self.world.time_step, &mut containers);
-        containers.responses
-    }
-
     /// The containers' free velocities over a step of `time_step` (s), and how they yield.
     pub(super) fn free_containers<S: Space>(&self, time_step: f64, containers: &mut Containers<S>) {
         let state = &self.mount_state;
