@@ -147,13 +147,13 @@ fn a_container_moved_by_a_metre_in_one_step_leaves_its_particles_behind() {
                 leap(damper, way)
             }),
         ] {
-            let StepError::Escaped {
-                particle, position, ..
-            } = error
-            else {
-                panic!("{error:?}")
-            };
-            assert!(particle < 20 && position.length() > 0.9, "{error}");
+            match error {
+                StepError::Escaped {
+                    particle, position, ..
+                } => assert!(particle < 20 && position.length() > 0.9, "{error}"),
+                StepError::Jump { off, .. } => assert!(off > 0.9, "{error}"),
+                _ => panic!("{error:?}"),
+            }
         }
     }
 }
@@ -315,7 +315,7 @@ fn two_bodies_pressed_into_each_other_are_named() {
         panic!("{error:?}")
     };
     assert_eq!((particle, other), (0, Partner::Particle(1)));
-    assert!(overlap > limit && limit.to_bits() == 1.5e-3_f64.to_bits());
+    assert!(overlap > limit && (limit - 0.7 * 3e-3).abs() < 1e-15);
 }
 
 /// A host that iterates finds the same end of a step however often it went back.

@@ -4,7 +4,7 @@ use glam::{DVec3, dvec3};
 use particle_damper::{
     AllPairs, Bed, Cavity, CellGrid, Cuboid, Damper, Detector, Driven, Filling, HertzTsuji,
     Interaction, LinkedCells, Material, Materials, Motion, Pairs, Particle, RestitutionImpulse,
-    Skin, Slot,
+    Skin, Slot, SolverParameters,
 };
 
 /// Radii from 1 to 10 in two materials, and the table that the law has of them.
@@ -40,7 +40,10 @@ type Shaken<D> = Damper<Cuboid, RestitutionImpulse, Driven, D>;
 
 fn damper<D: Detector + Clone>(detector: D, small: usize) -> Shaken<D> {
     let (materials, particles, cavity) = bed(small, 15);
-    Damper::builder(cavity, RestitutionImpulse::new(materials))
+    // A thousand times as heavy as the small ones.
+    let parameters = SolverParameters::default().with_sweeps(16);
+    let law = RestitutionImpulse::new(materials).solved_with(parameters);
+    Damper::builder(cavity, law)
         .particles(particles)
         .detector(detector)
         .time_step(5e-5)

@@ -14,7 +14,7 @@ const INITIAL_OVERLAP: f64 = 0.05;
 
 /// Overlaps up to this fraction of the smallest radius pass while blows are hard; no bed comes back from
 /// much more.
-const OVERLAP_LIMIT: f64 = 0.5;
+const OVERLAP_LIMIT: f64 = 0.7;
 
 /// Puts a [`Damper`](crate::Damper) together.
 #[derive(Debug, Clone)]
@@ -186,7 +186,7 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
         self
     }
 
-    /// Overlap at which a step reports an error, as a fraction of the smallest radius; 0.5 unless set.
+    /// Overlap at which a step reports an error, as a fraction of the smallest radius; 0.7 unless set.
     /// Results are worth little well before: see [`guide::trust`](crate::guide::trust).
     pub const fn overlap_limit(mut self, fraction: f64) -> Self {
         self.overlap_limit = fraction;

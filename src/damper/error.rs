@@ -282,7 +282,7 @@ pub enum StepError {
     /// or a wall, unseen. A shorter step follows it.
     #[error(
         "particle {particle} moves at {speed} m/s relative to its container, by more than its radius in a \
-         step of {time_step} s; at most {limit} m/s can be followed, or a shorter step"
+         step of {time_step} s, which follows {limit} m/s at most: {cause}"
     )]
     TooFast {
         /// Number of the particle.
@@ -293,6 +293,8 @@ pub enum StepError {
         time_step: f64,
         /// The greatest speed in m/s that the step follows.
         limit: f64,
+        /// What may be behind it.
+        cause: Cause,
     },
     /// The container's motion is no longer finite.
     #[error("the motion of the container of cavity {cavity} is not finite: {position}, {velocity}")]

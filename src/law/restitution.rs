@@ -22,6 +22,27 @@ const TRAVEL: f64 = 0.2;
 /// As it stands in the paper the law lets resting particles sink, by g dt/(1 + e) in velocity and layer,
 /// until they leave through the floor. Here the contacts of a step are solved together, by nonsmooth
 /// contact dynamics: see [`SolverParameters`]. [`literal`](Self::literal) is the paper's form.
+///
+/// # Accuracy and limits
+/// - One impact of two bodies has the restitution asked for, at every speed above the
+///   [threshold](SolverParameters::restitution_threshold): 4 mm/s under gravity at steps of 0.1 ms, no more
+///   than 0 without. It is taken where the bodies are at the middle of the step, which is off by up to half
+///   of their way in it: the law is of first order in the step where impacts count, and of second in what
+///   rests.
+/// - The paper's damper at its resonances (20, 40, 60 particles, 5.5 to 6.75 Hz) responds as under the
+///   strict law of the same restitution ([`Damping::Tsuji`], steps of 5 us) to 1.5 % at worst and 0.3 % on
+///   the mean, at steps of 0.1 ms and of 0.2 ms alike, with overlaps of up to 0.13 and 0.25 radii
+///   (`tests/coarse_law.rs`, long form).
+/// - Beds that are shaken at 1.1 to 3 g keep overlaps below 0.05 radii from 20 Hz on, and below 0.1 at
+///   10 Hz, also where one half is up to 16 times as heavy as the other.
+/// - Heavy on light wants more [sweeps](SolverParameters::sweeps): 16 at a mass ratio of 100, 64 at 1000.
+///   Blows on such beds can press them to 0.5 radii for some steps.
+/// - Blows that reach a body in one step count as simultaneous, and then what comes out depends on the order
+///   in which contacts are solved, that of the particles' numbers: a column of five beads that *touch*, of
+///   restitution 0.6, leaves a wall with 0.04 to 0.12 of its speed by numbering. Beads apart from each other
+///   leave as theory has it, whatever their numbers.
+/// - A body that moves by more than its radius in a step is [refused](crate::StepError::TooFast), so that
+///   nothing is passed unseen.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RestitutionImpulse {
     materials: Materials,

@@ -23,6 +23,7 @@ fn cause(error: &StepError) -> Option<Cause> {
     match error {
         StepError::Escaped { cause, .. }
         | StepError::Overlap { cause, .. }
+        | StepError::TooFast { cause, .. }
         | StepError::Jump { cause, .. } => Some(*cause),
         _ => None,
     }

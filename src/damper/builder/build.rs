@@ -240,7 +240,7 @@ where
                 inverse_mass: responses
                     .get(number * (count + 1))
                     .copied()
-                    .unwrap_or_default(),
+                    .unwrap_or(DMat3::ZERO),
                 margin,
             });
             slot = end;

@@ -103,6 +103,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             speed: relative.length(),
             time_step,
             limit: self.particles.radius[slot] / time_step,
+            cause: self.cause(),
         }
     }
 }
