@@ -84,7 +84,9 @@ pub struct Contact {
     /// Overlap d in m, positive when touching.
     pub overlap: f64,
     /// Velocity of the first body's surface relative to the second's at the point of contact, spin
-    /// included, in m/s.
+    /// included, in m/s. Under a force law two spheres touch in the middle of their overlap, and a wall
+    /// gives way nowhere and turns a sphere by its radius; under an impulse law overlaps are small errors,
+    /// which bodies share by their radii.
     pub velocity: DVec3,
     /// Angular velocities of the two bodies in rad/s; zero for a wall.
     pub spins: [DVec3; 2],

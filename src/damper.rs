@@ -28,7 +28,7 @@ mod engine;
 mod error;
 mod particles;
 mod record;
-mod scene;
+pub(crate) mod scene;
 mod setup;
 mod snapshot;
 mod sort;

@@ -9,7 +9,7 @@
 
 use glam::DVec3;
 
-use super::scene::{Scene, at_surface, meeting, resolve};
+use super::scene::{Scene, at_surface, levers, meeting, resolve};
 use super::vectors::{axial, polar};
 use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce, Edge};
@@ -208,9 +208,22 @@ impl<L: ForceLaw> Chunk<L> {
                 .each_ref()
                 .map(|spins| axial::<PLANAR>(spins.get(n)));
             let velocity = polar::<PLANAR>(self.velocity.get(n));
-            let velocity = at_surface::<PLANAR>(normal, velocity, spins, radii);
+            let levers = self.levers::<PAIRS>(n);
+            let velocity = at_surface::<PLANAR>(normal, velocity, spins, levers);
             self.velocity.set_polar::<PLANAR>(n, velocity);
             self.approach[n] = -velocity.dot(normal);
+        }
+    }
+
+    /// Levers in m at which friction turns the bodies of a contact. A wall gives way nowhere, and turns
+    /// the sphere by its radius.
+    #[inline(always)]
+    fn levers<const PAIRS: bool>(&self, n: usize) -> [f64; 2] {
+        let radii = self.radii.each_ref().map(|radii| radii[n]);
+        if PAIRS {
+            levers(radii, self.overlap[n])
+        } else {
+            radii
         }
     }
 
@@ -303,19 +316,19 @@ impl<L: ForceLaw> Chunk<L> {
         if END {
             self.advanced[n] = law.advance(kind, &contact, &memory);
         }
-        self.note::<PLANAR, COUPLE>(n, contact.normal, &answer);
+        self.note::<PAIRS, PLANAR, COUPLE>(n, contact.normal, &answer);
     }
 
     /// Notes what an answer does to the two bodies.
     #[inline(always)]
-    fn note<const PLANAR: bool, const COUPLE: bool>(
+    fn note<const PAIRS: bool, const PLANAR: bool, const COUPLE: bool>(
         &mut self,
         n: usize,
         normal: DVec3,
         answer: &ContactForce,
     ) {
-        let radii = self.radii.each_ref().map(|radii| radii[n]);
-        let (push, [first, second]) = resolve::<PLANAR, COUPLE>(normal, radii, answer);
+        let levers = self.levers::<PAIRS>(n);
+        let (push, [first, second]) = resolve::<PLANAR, COUPLE>(normal, levers, answer);
         self.push.set_polar::<PLANAR>(n, push);
         self.torques[0].set_axial::<PLANAR>(n, first);
         self.torques[1].set_axial::<PLANAR>(n, second);
@@ -336,7 +349,7 @@ impl<L: ForceLaw> Chunk<L> {
                 let kind = only.copied().unwrap_or_else(|| self.kinds[n]);
                 let (contact, answer, memory) =
                     self.ask::<PAIRS>(law, &kind, n, moment, acceleration(n));
-                self.note::<false, true>(n, contact.normal, &answer);
+                self.note::<PAIRS, false, true>(n, contact.normal, &answer);
                 if END {
                     self.advanced[n] = memory;
                 }

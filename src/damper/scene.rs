@@ -143,16 +143,24 @@ pub(crate) fn meeting<const PLANAR: bool>(towards: DVec3, radii: [f64; 2]) -> (D
     (normal, radii[0] + radii[1] - distance)
 }
 
+/// Distances of two centres from the point at which the bodies touch, m: in the middle of the overlap,
+/// where bodies of one stiffness meet (Hertz). They sum to the distance of the centres, whatever the
+/// overlap, so that friction keeps angular momentum.
+#[inline(always)]
+pub(crate) fn levers(radii: [f64; 2], overlap: f64) -> [f64; 2] {
+    radii.map(|radius| radius - 0.5 * overlap)
+}
+
 /// Velocity of one surface relative to the other in m/s. `velocity` is that of the first centre
-/// relative to the second body, and a wall has radius zero.
+/// relative to the second body; a wall has no lever.
 #[inline(always)]
 pub(crate) fn at_surface<const PLANAR: bool>(
     normal: DVec3,
     velocity: DVec3,
     spins: [DVec3; 2],
-    radii: [f64; 2],
+    levers: [f64; 2],
 ) -> DVec3 {
-    let turning = spins[0] * radii[0] + spins[1] * radii[1];
+    let turning = spins[0] * levers[0] + spins[1] * levers[1];
     polar::<PLANAR>(velocity - turning.cross(normal))
 }
 
@@ -160,12 +168,12 @@ pub(crate) fn at_surface<const PLANAR: bool>(
 #[inline(always)]
 pub(crate) fn resolve<const PLANAR: bool, const COUPLE: bool>(
     normal: DVec3,
-    radii: [f64; 2],
+    levers: [f64; 2],
     answer: &ContactForce,
 ) -> (DVec3, [DVec3; 2]) {
     let tangential = polar::<PLANAR>(answer.tangential);
     let turn = tangential.cross(normal);
-    let [mut first, mut second] = radii.map(|radius| turn * radius);
+    let [mut first, mut second] = levers.map(|lever| turn * lever);
     if COUPLE {
         first += answer.couple;
         second -= answer.couple;

@@ -5,6 +5,7 @@ use glam::{DVec3, dvec3};
 use super::ForceLaw;
 use crate::contact::{Bodies, Body, Contact, ContactForce, Edge};
 use crate::damper::StepError;
+use crate::damper::scene::{at_surface, levers};
 use crate::damper::vectors::{Axes, Vectors};
 use crate::integrator::{Columns, Integrator, Motions, Stage, System};
 use crate::material::{Interaction, Material, Materials};
@@ -100,10 +101,12 @@ impl<'l, L: ForceLaw> Collision<'l, L> {
         } else {
             let apart = self.position.get(0) - self.position.get(1);
             let normal = apart.normalize();
-            let other = self.bodies.second.radius;
-            let turning = -(self.spin.get(0) * reach + self.spin.get(1) * other).cross(normal);
-            let velocity = self.velocity.get(0) - self.velocity.get(1) + turning;
-            Contact::new(normal, reach + other - apart.length(), velocity)
+            let radii = [reach, self.bodies.second.radius];
+            let overlap = radii[0] + radii[1] - apart.length();
+            let velocity = self.velocity.get(0) - self.velocity.get(1);
+            let (spins, levers) = (both(&self.spin), levers(radii, overlap));
+            let velocity = at_surface::<false>(normal, velocity, spins, levers);
+            Contact::new(normal, overlap, velocity)
         };
         contact.spins = both(&self.spin);
         contact.elapsed = elapsed;
@@ -200,7 +203,12 @@ impl<L: ForceLaw> System for Collision<'_, L> {
             let signs = [1.0, -1.0];
             for (n, sign) in signs.into_iter().enumerate().take(self.position.len()) {
                 let Body { mass, radius, .. } = self.body(n);
-                let torque = -radius * contact.normal.cross(answer.tangential);
+                let lever = if self.bodies.at_wall() {
+                    radius
+                } else {
+                    levers([radius; 2], contact.overlap)[0]
+                };
+                let torque = -lever * contact.normal.cross(answer.tangential);
                 self.acceleration.set(n, sign * force / mass);
                 let torque = torque + sign * answer.couple;
                 self.spin_rate

@@ -10,7 +10,8 @@ use crate::contact::{Contact, ContactForce, Edge, Stored};
 ///
 /// # Implementing
 /// 1. [`force`](Self::force) is called for touching bodies alone (overlap > 0). It answers with the
-///    force on the first body; the engine turns it into opposite forces and into torques. It must
+///    force on the first body; the engine turns it into opposite forces, and into torques at
+///    levers that sum to the distance of the centres (friction keeps angular momentum). It must
 ///    be a function of its arguments: same arguments, same bits.
 /// 2. A law whose contacts have a past names it as [`Memory`](Self::Memory). A contact starts with
 ///    the default; [`advance`](Self::advance) is called once per accepted step for each contact
