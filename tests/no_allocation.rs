@@ -172,6 +172,8 @@ fn no_step_allocates_once_warm() {
         RungeKutta4::default(),
         linked(),
     );
+    let law = RestitutionImpulse::literal(acrylic());
+    shaken("simultaneous impulses", law, 2e-5, VelocityVerlet, linked());
     driven("driven, strict", HertzTsuji::new(acrylic()), 4e-6);
     driven("driven, memory", HertzMindlin::new(acrylic()), 4e-6);
     driven("driven, impulses", RestitutionImpulse::new(acrylic()), 1e-4);

@@ -27,7 +27,7 @@ mod report;
 mod sweep;
 
 use constraint::{ContactConstraint, RollingConstraint};
-use container::Containers;
+use container::{Container, Containers};
 use pairs::Lanes;
 use prepare::Mark;
 
@@ -49,6 +49,8 @@ pub(crate) struct Stages<S: Space> {
     predicted: Vectors,
     bodies: Vec<SolverBody<S>>,
     containers: Containers<S>,
+    /// Both as a simultaneous sweep found them.
+    found: (Vec<SolverBody<S>>, Vec<Container<S>>),
     /// Active contacts: pairs, then walls.
     constraints: Vec<ContactConstraint<S>>,
     /// Of each constraint, what sweeps do not need.

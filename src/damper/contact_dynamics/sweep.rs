@@ -126,8 +126,10 @@ impl<S: Space> Stages<S> {
 
     /// Solves all constraints from the same velocities.
     pub(super) fn sweep_at_once(&mut self) {
-        let (bodies, containers) = (self.bodies.clone(), self.containers.each.clone());
+        self.found.0.clone_from(&self.bodies);
+        self.found.1.clone_from(&self.containers.each);
         for number in 0..self.constraints.len() {
+            let (bodies, containers) = (&self.found.0, &self.found.1);
             let constraint = &mut self.constraints[number];
             let [first, second] = constraint.bodies.map(|body| body as usize);
             let first = bodies[first];
