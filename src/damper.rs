@@ -5,7 +5,6 @@ use std::fmt;
 use glam::DVec3;
 
 use crate::cavity::{Cavity, clearance};
-use crate::contact::Body;
 use crate::detector::{Detector, LinkedCells, Skin};
 use crate::integrator::{Integrator, VelocityVerlet};
 use crate::law::ContactLaw;
@@ -325,12 +324,4 @@ impl<C: Cavity, L: ContactLaw> Damper<C, L, Driven, Skin<LinkedCells>> {
     pub fn builder(cavity: C, law: L) -> Builder<C, L> {
         Builder::new(cavity, law)
     }
-}
-
-/// The smallest radius of `kinds` in m; infinite if there are none.
-pub(crate) fn smallest_radius(kinds: &[Body]) -> f64 {
-    kinds
-        .iter()
-        .map(|kind| kind.radius)
-        .fold(f64::INFINITY, f64::min)
 }

@@ -6,7 +6,6 @@ use glam::DVec3;
 
 use super::engine::Engine;
 use super::error::StepError;
-use super::smallest_radius;
 use crate::cavity::Cavity;
 use crate::detector::Detector;
 use crate::law::ContactLaw;
@@ -117,7 +116,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
     /// What may be behind particles out of place.
     pub(crate) fn cause(&self) -> Cause {
-        let radius = smallest_radius(&self.particles.kinds);
+        let radius = self.particles.smallest_radius;
         let reference = self.world.law.design_speed();
         let borne = ABOVE * reference;
         let rooms = self.world.rooms.iter().zip(&self.begin.motions);
@@ -169,7 +168,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Refuses a container that has left the course with which it began the step by so much that its walls
     /// may have passed over particles.
     pub(crate) fn check_course(&self) -> Result<(), StepError> {
-        let limit = JUMP * smallest_radius(&self.particles.kinds);
+        let limit = JUMP * self.particles.smallest_radius;
         for (cavity, (room, start)) in self.world.rooms.iter().zip(&self.begin.motions).enumerate()
         {
             let course = start.velocity * self.begin.time_step;
@@ -194,7 +193,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         if self.mount.degrees() > 0 {
             return Ok(());
         }
-        let radius = smallest_radius(&self.particles.kinds).min(f64::MAX);
+        let radius = self.particles.smallest_radius.min(f64::MAX);
         let time_step = self.begin.time_step;
         for (cavity, (room, start)) in self.world.rooms.iter().zip(&self.begin.motions).enumerate()
         {

@@ -1,15 +1,40 @@
 //! Detection: candidates are proposed, sorted into the one order in which contacts are evaluated, and
 //! narrowed down to those that touch.
 
+use glam::DVec3;
+
 use super::block::{Block, Listing, Memories};
 use super::candidates::{Remembered, make_room};
 use super::engine::Engine;
 use super::error::StepError;
+use super::particles::Particles;
+use super::scene::Room;
 use crate::cavity::Cavity;
 use crate::detector::{Bed, Detector, DetectorError};
 use crate::law::ContactLaw;
 use crate::mount::Mount;
 use crate::parallel::for_each;
+
+/// The bed of a room as its detector sees it, for bodies with a gap of up to `reach` (m). Its places, seen
+/// from the container, go to the end of `local`, which holds those of the rooms before.
+fn bed<'a, C: Cavity>(
+    room: &Room<C>,
+    particles: &'a Particles,
+    reach: f64,
+    local: &'a mut Vec<DVec3>,
+) -> Bed<'a> {
+    let slots = room.slots.clone();
+    let origin = room.motion.position;
+    let positions = slots.clone();
+    local.extend(positions.map(|slot| particles.position.get(slot) - origin));
+    Bed::new(
+        &local[slots.clone()],
+        &particles.radius[slots],
+        room.cavity.bounds(),
+    )
+    .in_plane(room.cavity.is_planar())
+    .with_margin(room.margin + reach)
+}
 
 impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Lists the pairs and walls that touch now. With `afresh`, candidates without a skin are listed
@@ -42,18 +67,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Makes the detectors ready for the bed as it stands.
     pub(crate) fn prepare_detectors(&mut self) -> Result<(), DetectorError> {
         let local = &mut self.scratch.local;
+        local.clear();
         for (room, detector) in self.world.rooms.iter().zip(&mut self.detectors) {
-            let slots = room.slots.clone();
-            let origin = room.motion.position;
-            let positions = slots
-                .clone()
-                .map(|slot| self.particles.position.get(slot) - origin);
-            local.clear();
-            local.extend(positions);
-            let bed = Bed::new(local, &self.particles.radius[slots], room.cavity.bounds())
-                .in_plane(room.cavity.is_planar())
-                .with_margin(room.margin + self.world.listed);
-            detector.prepare(&bed)?;
+            detector.prepare(&bed(room, &self.particles, self.world.listed, local))?;
         }
         Ok(())
     }
@@ -91,18 +107,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         scratch.local.clear();
         for (room, detector) in self.world.rooms.iter().zip(&mut self.detectors) {
             let slots = room.slots.clone();
-            let origin = room.motion.position;
-            let positions = slots
-                .clone()
-                .map(|slot| self.particles.position.get(slot) - origin);
-            scratch.local.extend(positions);
-            let bed = Bed::new(
-                &scratch.local[slots.clone()],
-                &self.particles.radius[slots.clone()],
-                room.cavity.bounds(),
-            )
-            .in_plane(room.cavity.is_planar())
-            .with_margin(room.margin + self.world.listed);
+            let local = &mut scratch.local;
+            let bed = bed(room, &self.particles, self.world.listed, local);
             scratch.proposals.clear();
             detector.detect(&bed, &mut scratch.proposals);
             let proposals = scratch.proposals.as_slice();

@@ -34,6 +34,8 @@ pub(crate) struct Particles {
     pub(crate) slot: Vec<u32>,
     /// The combinations that occur.
     pub(crate) kinds: Vec<Body>,
+    /// m; infinite without particles.
+    pub(crate) smallest_radius: f64,
 }
 
 impl Particles {
@@ -54,6 +56,10 @@ impl Particles {
             angular_acceleration: Vectors::zeros(turning, count),
             number,
             slot: vec![0; particles.len()],
+            smallest_radius: particles
+                .iter()
+                .map(|own| own.radius)
+                .fold(f64::INFINITY, f64::min),
             ..Self::default()
         };
         for (slot, number) in columns.number.iter().enumerate() {

@@ -5,7 +5,7 @@ use glam::{DVec3, dvec3};
 use super::ForceLaw;
 use crate::contact::{Bodies, Body, Contact, ContactForce, Edge};
 use crate::damper::StepError;
-use crate::damper::scene::{at_surface, levers};
+use crate::damper::scene::{at_surface, levers, resolve};
 use crate::damper::vectors::{Axes, Vectors};
 use crate::integrator::{Columns, Integrator, Motions, Stage, System};
 use crate::material::{Interaction, Material, Materials};
@@ -92,22 +92,27 @@ impl<'l, L: ForceLaw> Collision<'l, L> {
         [self.bodies.first, self.bodies.second][number]
     }
 
-    fn contact(&self, elapsed: f64, correction: f64) -> Contact {
-        let reach = self.bodies.first.radius;
-        let mut contact = if self.bodies.at_wall() {
-            let lever = -reach * DVec3::Y;
-            let velocity = self.velocity.get(0) + self.spin.get(0).cross(lever);
-            Contact::new(DVec3::Y, reach - self.position.get(0).y, velocity)
+    fn levers(&self, overlap: f64) -> [f64; 2] {
+        let Bodies { first, second } = self.bodies;
+        if self.bodies.at_wall() {
+            [first.radius, 0.0]
         } else {
-            let apart = self.position.get(0) - self.position.get(1);
-            let normal = apart.normalize();
-            let radii = [reach, self.bodies.second.radius];
-            let overlap = radii[0] + radii[1] - apart.length();
-            let velocity = self.velocity.get(0) - self.velocity.get(1);
-            let (spins, levers) = (both(&self.spin), levers(radii, overlap));
-            let velocity = at_surface::<false>(normal, velocity, spins, levers);
-            Contact::new(normal, overlap, velocity)
+            levers([first.radius, second.radius], overlap)
+        }
+    }
+
+    fn contact(&self, elapsed: f64, correction: f64) -> Contact {
+        let (towards, reach) = if self.bodies.at_wall() {
+            (self.position.get(0).y * DVec3::Y, self.bodies.first.radius)
+        } else {
+            let reach = self.bodies.first.radius + self.bodies.second.radius;
+            (self.position.get(0) - self.position.get(1), reach)
         };
+        let (normal, overlap) = (towards.normalize(), reach - towards.length());
+        let [own, other] = both(&self.velocity);
+        let levers = self.levers(overlap);
+        let velocity = at_surface::<false>(normal, own - other, both(&self.spin), levers);
+        let mut contact = Contact::new(normal, overlap, velocity);
         contact.spins = both(&self.spin);
         contact.elapsed = elapsed;
         contact.correction = correction;
@@ -199,20 +204,16 @@ impl<L: ForceLaw> System for Collision<'_, L> {
         let mut advanced = L::Memory::default();
         if touching {
             let (answer, memory) = self.answer(&contact, edge);
-            let force = answer.normal * contact.normal + answer.tangential;
-            let signs = [1.0, -1.0];
-            for (n, sign) in signs.into_iter().enumerate().take(self.position.len()) {
-                let Body { mass, radius, .. } = self.body(n);
-                let lever = if self.bodies.at_wall() {
-                    radius
-                } else {
-                    levers([radius; 2], contact.overlap)[0]
-                };
-                let torque = -lever * contact.normal.cross(answer.tangential);
-                self.acceleration.set(n, sign * force / mass);
-                let torque = torque + sign * answer.couple;
-                self.spin_rate
-                    .set(n, torque / (0.4 * mass * radius * radius));
+            let levers = self.levers(contact.overlap);
+            let (push, torques) = resolve::<false, true>(contact.normal, levers, &answer);
+            let forces = [push, -push];
+            for (n, (force, torque)) in forces.into_iter().zip(torques).enumerate() {
+                if n < self.position.len() {
+                    let Body { mass, radius, .. } = self.body(n);
+                    self.acceleration.set(n, force / mass);
+                    let inertia = 0.4 * mass * radius * radius;
+                    self.spin_rate.set(n, torque / inertia);
+                }
             }
             advanced = memory;
             self.peak.0 = self.peak.0.max(contact.overlap);

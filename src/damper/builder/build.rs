@@ -5,6 +5,7 @@ use glam::{DMat3, DVec3};
 use super::Builder;
 use crate::cavity::Cavity;
 use crate::contact::Body;
+use crate::damper::Damper;
 use crate::damper::block::{BLOCK, memories};
 use crate::damper::cause::Begin;
 use crate::damper::clock::Clock;
@@ -15,7 +16,6 @@ use crate::damper::error::BuildError;
 use crate::damper::particles::Particles;
 use crate::damper::scene::{Room, WallLoad, World};
 use crate::damper::setup::Setup;
-use crate::damper::{Damper, smallest_radius};
 use crate::detector::Detector;
 use crate::error::{Bound, ValueError};
 use crate::integrator::{Integrator, Stage};
@@ -52,8 +52,8 @@ where
         let particles = Particles::new(&self.particles, numbers, planar);
         let coefficients = Coefficients::new(&self.law, &particles.kinds, self.wall_material)?;
         L::Kind::accept(CheckLaw(&self.law))?;
-        let smallest = smallest_radius(&particles.kinds);
         let mount_state = MountState::new(&self.mount, self.cavities.len());
+        let smallest = particles.smallest_radius;
         let rooms = self.rooms(smallest, &mount_state);
         let yielding = rooms.iter().map(Room::greatest_inverse_mass);
         let wall = Body {

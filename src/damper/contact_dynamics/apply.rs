@@ -54,7 +54,7 @@ impl<C: Cavity, L: ImpulseLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             let force = stages.force(number, step.time_step);
             let normal = S::in_space(constraint.normal);
             let arm = normal * -(constraint.lever * self.particles.radius[slot]);
-            let place = stages.predicted.get(slot) - stages.containers.origin(cavity) + arm;
+            let place = stages.predicted.get(slot) - stages.containers.each[cavity].origin + arm;
             let push = normal * force.normal + force.tangential;
             let wall = stages.marks[number].wall as usize;
             self.wall_loads[wall].react(push, force.couple, place);

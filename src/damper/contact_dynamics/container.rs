@@ -50,13 +50,6 @@ impl<S: Space> Containers<S> {
         !self.responses.is_empty()
     }
 
-    /// Where the container of a cavity was when contacts were looked for.
-    pub(super) fn origin(&self, cavity: usize) -> DVec3 {
-        self.each
-            .get(cavity)
-            .map_or(DVec3::ZERO, |container| container.origin)
-    }
-
     /// Takes an impulse (N s) on the container of a cavity.
     #[inline(always)]
     pub(super) fn add(&mut self, cavity: usize, impulse: S::Vector) {

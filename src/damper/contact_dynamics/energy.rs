@@ -48,7 +48,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 curvature += mass * (linear + turned * (1.0 / TURNING));
             }
         }
-        for constraint in &stages.constraints[stages.pairs..stages.constraints.len()] {
+        for constraint in &stages.constraints[stages.pairs..] {
             let container = &stages.containers.each[constraint.bodies[1] as usize];
             let impulse = constraint.so_far().impulse;
             curvature -= S::dot(impulse, container.velocity - container.free);
@@ -66,7 +66,6 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         growth: [f64; 2],
     ) {
         let [slope, curvature] = growth;
-        let count = stages.constraints.len();
         let all = stages.constraints.iter().zip(&stages.marks);
         let allowed: f64 = all.map(|(own, mark)| correction_work(own, mark)).sum();
         if slope + curvature <= allowed {
@@ -96,7 +95,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             let free = container.free;
             container.velocity = free + (container.velocity - free) * factor;
         }
-        for constraint in &mut stages.constraints[..count] {
+        for constraint in &mut stages.constraints {
             constraint.impulse *= factor;
             constraint.tangential = constraint.tangential * factor;
         }
