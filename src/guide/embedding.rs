@@ -52,8 +52,10 @@
 //! A host that iterates, or whose solver rejects steps, takes a snapshot before and restores it. The
 //! impulse it supposes is corrected by a part of what it is off, 1 / (1 + m/M) at first, and then by what
 //! the last two tries suggest (Aitken's relaxation; Kuettler & Wall 2008, doi 10.1007/s00466-008-0255-5).
-//! That converges up to m/M = 20 and beyond. A bed of impacts may have no answer that fits: an interval in
-//! which no try was accepted is taken again in halves, and one that cannot be is a failure.
+//! Under a force law that converges up to m/M = 20 and beyond: its answer follows the motion without jumps.
+//! An impulse law decides once a step which contacts rebound, and a bed that outweighs its host by far may
+//! have no answer that fits. An interval in which no try was accepted is taken again in halves, and one that
+//! cannot be is a failure.
 //!
 //! ```
 //! # use particle_damper::glam::DVec3;
