@@ -18,8 +18,8 @@ use std::path::Path;
 
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::{
-    Cuboid, Damper, Filling, Frame, Material, Motion, Observer, Particle, Prescribed,
-    RestitutionImpulse,
+    Cuboid, Damper, Filling, Material, Motion, Observer, Particle, Prescribed, RestitutionImpulse,
+    StepReport,
 };
 
 type Failure = Box<dyn Error + Send + Sync>;
@@ -31,12 +31,12 @@ struct Recorder {
 }
 
 impl Observer for Recorder {
-    fn step(&mut self, frame: &Frame<'_>) {
+    fn step(&mut self, report: &StepReport<'_>) {
         // Half a step of tolerance, for the rounding of the time.
-        let due = self.frames.len() as f64 * self.interval - 0.5 * frame.time_step();
-        if frame.time() >= due {
+        let due = self.frames.len() as f64 * self.interval - 0.5 * report.time_step();
+        if report.time() >= due {
             self.frames
-                .push((frame.time(), frame.particles().collect()));
+                .push((report.time(), report.particles().collect()));
         }
     }
 }

@@ -136,7 +136,7 @@ impl Contact {
 /// What a law sees besides of a contact that may begin or end within a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub struct Edge {
+pub struct Onset {
     /// Length of the step in s: the force of a contact is taken at intervals of this length.
     pub time_step: f64,
     /// How fast the bodies' speed of separation along the normal changed when forces were evaluated
@@ -144,7 +144,7 @@ pub struct Edge {
     pub acceleration: f64,
 }
 
-impl Edge {
+impl Onset {
     /// A step of `time_step` (s), and the acceleration along the normal (m/s^2).
     #[must_use]
     #[inline(always)]

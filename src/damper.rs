@@ -9,7 +9,7 @@ use crate::detector::{Detector, LinkedCells, Skin};
 use crate::integrator::{Integrator, VelocityVerlet};
 use crate::law::ContactLaw;
 use crate::mount::{Driven, Motion, Mount};
-use crate::observer::{Frame, Observer, View};
+use crate::observer::{Observable, Observer, StepReport};
 use crate::particle::Particle;
 
 mod block;
@@ -152,7 +152,7 @@ where
         self.engine.check_course()?;
         self.clock.advance(dt);
         self.engine.time = self.clock.time();
-        observer.step(&Frame::new(self.engine.time, dt, &self.engine));
+        observer.step(&StepReport::new(self.engine.time, dt, &self.engine));
         Ok(())
     }
 
@@ -253,7 +253,7 @@ where
     /// How many contacts there were when they were evaluated last, walls included.
     #[must_use]
     pub fn contacts(&self) -> usize {
-        View::contacts(&self.engine)
+        Observable::contacts(&self.engine)
     }
 
     /// The largest overlap in m when contacts were evaluated last.

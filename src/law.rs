@@ -12,7 +12,6 @@ use crate::material::MaterialId;
 #[cfg(test)]
 mod collision;
 mod damping;
-mod edge;
 mod force_law;
 mod friction;
 mod hertz;
@@ -21,6 +20,7 @@ mod hertz_tsuji;
 mod impulse_law;
 mod kind;
 mod normal;
+mod onset;
 mod restitution;
 mod solver_parameters;
 mod turn;

@@ -72,7 +72,7 @@
 //!
 //! # Units, frames and signs
 //!
-//! SI units and `f64` throughout; [`glam`] vectors. Particles and forces are in the fixed frame, walls
+//! SI units and `f64` throughout; [`glam`] vectors. Particles and forces are in the fixed report, walls
 //! in the container's, which moves without turning. y points up. An overlap is positive when bodies
 //! touch; a reaction is the force of the particles *on* the container.
 //!
@@ -126,7 +126,7 @@ pub mod response;
 pub use glam;
 
 pub use cavity::{Cavity, Cuboid, Slot};
-pub use contact::{Bodies, Body, Contact, ContactForce, Edge, HeldForce, Stored};
+pub use contact::{Bodies, Body, Contact, ContactForce, HeldForce, Onset, Stored};
 pub use damper::{
     BuildError, Builder, Cause, Damper, Partner, Reaction, Recorded, Recording, ReplayError,
     RestoreError, Snapshot, StepBound, StepError, WallLoad,
@@ -146,8 +146,8 @@ pub use law::{
 pub use material::{Interaction, Material, MaterialId, Materials};
 pub use mount::{Driven, Motion, Mount, MountEnergy, Prescribed, SingleDof};
 pub use observer::{
-    BedRegime, ContactEvent, Energies, EnergyLedger, Extremes, Frame, Losses, Observer, WallRecord,
-    WallRecorder,
+    BedRegime, ContactEvent, Energies, EnergyLedger, Extremes, Losses, Observer, StepReport,
+    WallRecord, WallRecorder,
 };
 pub use particle::Particle;
 pub use response::ResponseCurve;

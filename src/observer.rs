@@ -7,15 +7,15 @@ use crate::damper::Partner;
 
 mod energy;
 mod extremes;
-mod frame;
 mod regime;
+mod step_report;
 mod walls;
 
 pub use energy::{Energies, EnergyLedger, Losses};
 pub use extremes::Extremes;
-pub use frame::Frame;
-pub(crate) use frame::View;
 pub use regime::BedRegime;
+pub(crate) use step_report::Observable;
+pub use step_report::StepReport;
 pub use walls::{WallRecord, WallRecorder};
 
 /// A contact of an accepted step, as an observer sees it.
@@ -62,13 +62,13 @@ pub struct ContactEvent {
 ///
 /// An observer never changes the trajectory. The height of the lowest particle:
 /// ```
-/// use particle_damper::{Frame, Observer};
+/// use particle_damper::{StepReport, Observer};
 ///
 /// struct Lowest(f64);
 ///
 /// impl Observer for Lowest {
-///     fn step(&mut self, frame: &Frame<'_>) {
-///         let heights = frame.particles().map(|particle| particle.position.y);
+///     fn step(&mut self, report: &StepReport<'_>) {
+///         let heights = report.particles().map(|particle| particle.position.y);
 ///         self.0 = heights.fold(f64::INFINITY, f64::min);
 ///     }
 /// }
@@ -83,7 +83,7 @@ pub trait Observer {
     fn contact(&mut self, _event: &ContactEvent) {}
 
     /// The end of a step.
-    fn step(&mut self, _frame: &Frame<'_>) {}
+    fn step(&mut self, _report: &StepReport<'_>) {}
 }
 
 impl Observer for () {}
@@ -97,8 +97,8 @@ impl<O: Observer + ?Sized> Observer for &mut O {
         (**self).contact(event);
     }
 
-    fn step(&mut self, frame: &Frame<'_>) {
-        (**self).step(frame);
+    fn step(&mut self, report: &StepReport<'_>) {
+        (**self).step(report);
     }
 }
 
@@ -116,8 +116,8 @@ impl<A: Observer, B: Observer> Observer for (A, B) {
         }
     }
 
-    fn step(&mut self, frame: &Frame<'_>) {
-        self.0.step(frame);
-        self.1.step(frame);
+    fn step(&mut self, report: &StepReport<'_>) {
+        self.0.step(report);
+        self.1.step(report);
     }
 }

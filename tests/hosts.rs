@@ -6,9 +6,9 @@ use std::sync::{Arc, Mutex};
 use glam::{DVec3, dvec3};
 use particle_damper::{
     Bodies, Bound, Cause, Contact, ContactForce, ContactLaw, Cuboid, Damper, Driven, Filling,
-    ForceLaw, Forces, Frame, HertzMindlin, HertzTsuji, ImpulseLaw, Impulses, LawError, LinkedCells,
+    ForceLaw, Forces, HertzMindlin, HertzTsuji, ImpulseLaw, Impulses, LawError, LinkedCells,
     Material, Motion, Mount, Observer, Particle, Partner, RestitutionImpulse, SingleDof, Skin,
-    Slot, StepError,
+    Slot, StepError, StepReport,
 };
 
 type Hosted<L> = Damper<Cuboid, L, Driven, Skin<LinkedCells>>;
@@ -341,7 +341,7 @@ fn a_step_taken_back_leaves_no_trace() {
 struct Steps(u64);
 
 impl Observer for Steps {
-    fn step(&mut self, _frame: &Frame<'_>) {
+    fn step(&mut self, _report: &StepReport<'_>) {
         self.0 += 1;
     }
 }

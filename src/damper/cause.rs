@@ -10,7 +10,7 @@ use crate::cavity::Cavity;
 use crate::detector::Detector;
 use crate::law::ContactLaw;
 use crate::mount::{Motion, Mount};
-use crate::observer::View;
+use crate::observer::Observable;
 
 /// How far a container may leave the course that it begins a step with, in radii of the smallest particle.
 const JUMP: f64 = 0.5;

@@ -12,7 +12,7 @@ use glam::DVec3;
 use super::scene::{Scene, at_surface, levers, meeting, resolve};
 use super::vectors::{axial, polar};
 use crate::cavity::Cavity;
-use crate::contact::{Contact, ContactForce, Edge};
+use crate::contact::{Contact, ContactForce, Onset};
 use crate::law::{ContactLaw, ContactMemory, ForceLaw, at_least};
 
 /// How many contacts are side by side at the most.
@@ -337,7 +337,7 @@ impl<L: ForceLaw> Chunk<L> {
     /// Has `law` answer once more where bodies may have met or may part within the step.
     /// `acceleration` is that of a contact's first centre relative to its second body, as it was
     /// evaluated last (m/s^2).
-    pub(crate) fn mend_edges<const PAIRS: bool, const END: bool>(
+    pub(crate) fn correct_onsets<const PAIRS: bool, const END: bool>(
         &mut self,
         law: &L,
         only: Option<&L::Coefficients>,
@@ -345,7 +345,7 @@ impl<L: ForceLaw> Chunk<L> {
         acceleration: impl Fn(usize) -> DVec3,
     ) {
         for n in 0..self.count.min(CHUNK) {
-            if Edge::is_near(self.overlap[n], self.approach[n], moment.time_step) {
+            if Onset::is_near(self.overlap[n], self.approach[n], moment.time_step) {
                 let kind = only.copied().unwrap_or_else(|| self.kinds[n]);
                 let (contact, answer, memory) =
                     self.ask::<PAIRS>(law, &kind, n, moment, acceleration(n));
@@ -370,9 +370,9 @@ impl<L: ForceLaw> Chunk<L> {
         let time_step = moment.time_step;
         let (contact, memory) = (self.contact::<PAIRS, false>(n, moment), &self.memory[n]);
         let (overlap, approach) = (contact.overlap, contact.approach_speed());
-        if law.has_edges() && Edge::is_near(overlap, approach, time_step) {
-            let edge = Edge::new(time_step, acceleration.dot(contact.normal));
-            let (answer, memory) = law.at_edge(kind, &contact, memory, &edge);
+        if law.corrects_onset() && Onset::is_near(overlap, approach, time_step) {
+            let onset = Onset::new(time_step, acceleration.dot(contact.normal));
+            let (answer, memory) = law.at_onset(kind, &contact, memory, &onset);
             return (contact, answer, memory);
         }
         let answer = law.force(kind, &contact, memory);

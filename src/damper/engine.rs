@@ -16,7 +16,7 @@ use crate::detector::{Detector, Pairs};
 use crate::integrator::Stage;
 use crate::law::{ContactLaw, ForceLaw, ImpulseLaw, LawKind, LawVisitor};
 use crate::mount::{self, Motion, Mount};
-use crate::observer::{Observer, View};
+use crate::observer::{Observable, Observer};
 use crate::parallel::{Pool, for_each};
 
 /// Coordinates of the mount, followed by three per cavity whose velocity sums up the impulse on its

@@ -111,7 +111,7 @@ pub enum BuildError {
     },
     /// A particle is too large for its cavity.
     #[error(
-        "particle {particle} of diameter {diameter} m does not fit into a cavity {room} m across"
+        "particle {particle} of diameter {diameter} m does not fit into a cavity {extent} m across"
     )]
     TooLarge {
         /// Number of the particle.
@@ -119,7 +119,7 @@ pub enum BuildError {
         /// Its diameter in m.
         diameter: f64,
         /// The cavity's least extent in m.
-        room: f64,
+        extent: f64,
     },
     /// A particle, a velocity, gravity or the mount leaves the plane of a planar cavity.
     #[error("{quantity} {value} leaves the plane z = 0 of a planar cavity")]

@@ -8,10 +8,10 @@ use crate::cavity::Cavity;
 use crate::detector::Detector;
 use crate::law::{ContactLaw, LawKind};
 use crate::mount::{Motion, Mount, MountEnergy};
-use crate::observer::View;
+use crate::observer::Observable;
 use crate::particle::Particle;
 
-impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> View for Engine<C, L, M, D> {
+impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Observable for Engine<C, L, M, D> {
     fn count(&self) -> usize {
         self.particles.len()
     }

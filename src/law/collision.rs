@@ -3,7 +3,7 @@
 use glam::{DVec3, dvec3};
 
 use super::ForceLaw;
-use crate::contact::{Bodies, Body, Contact, ContactForce, Edge};
+use crate::contact::{Bodies, Body, Contact, ContactForce, Onset};
 use crate::damper::StepError;
 use crate::damper::scene::{at_surface, levers, resolve};
 use crate::damper::vectors::{Axes, Vectors};
@@ -119,11 +119,11 @@ impl<'l, L: ForceLaw> Collision<'l, L> {
         contact
     }
 
-    fn answer(&self, contact: &Contact, edge: Edge) -> (ContactForce, L::Memory) {
+    fn answer(&self, contact: &Contact, onset: Onset) -> (ContactForce, L::Memory) {
         let (law, kind, memory) = (self.law, &self.coefficients, &self.memory);
         let speed = contact.approach_speed();
-        if law.has_edges() && Edge::is_near(contact.overlap, speed, self.time_step) {
-            return law.at_edge(kind, contact, memory, &edge);
+        if law.corrects_onset() && Onset::is_near(contact.overlap, speed, self.time_step) {
+            return law.at_onset(kind, contact, memory, &onset);
         }
         let answer = law.force(kind, contact, memory);
         (answer, law.advance(kind, contact, memory))
@@ -196,14 +196,14 @@ impl<L: ForceLaw> System for Collision<'_, L> {
         let predicted = stage == Stage::Predicted;
         let contact = self.contact(elapsed, if predicted { 0.5 * elapsed } else { 0.0 });
         let [ahead, behind] = both(&self.acceleration);
-        let edge = Edge::new(self.time_step, (ahead - behind).dot(contact.normal));
+        let onset = Onset::new(self.time_step, (ahead - behind).dot(contact.normal));
         self.previous = [self.acceleration.clone(), self.spin_rate.clone()];
         self.acceleration.flat_mut().fill(0.0);
         self.spin_rate.flat_mut().fill(0.0);
         let touching = contact.overlap > 0.0;
         let mut advanced = L::Memory::default();
         if touching {
-            let (answer, memory) = self.answer(&contact, edge);
+            let (answer, memory) = self.answer(&contact, onset);
             let levers = self.levers(contact.overlap);
             let (push, torques) = resolve::<false, true>(contact.normal, levers, &answer);
             let forces = [push, -push];

@@ -1,5 +1,5 @@
-use super::edge::Power;
 use super::hertz::ElasticImpact;
+use super::onset::Exponent;
 use crate::error::{Bound, ValueError};
 
 mod tsuji;
@@ -98,11 +98,11 @@ impl Damping {
         }
     }
 
-    /// The power of the overlap that the force grows with.
-    pub(super) const fn power(self) -> Power {
+    /// Exponent of the overlap that the force grows with.
+    pub(super) const fn exponent(self) -> Exponent {
         match self {
-            Self::Viscoelastic => Power::Half,
-            Self::Tsuji => Power::Quarter,
+            Self::Viscoelastic => Exponent::Half,
+            Self::Tsuji => Exponent::Quarter,
         }
     }
 

@@ -1,5 +1,5 @@
 use super::{ContactLaw, Forces};
-use crate::contact::{Contact, ContactForce, Edge, Stored};
+use crate::contact::{Contact, ContactForce, Onset, Stored};
 
 /// A contact law that answers with a force, a function of the instant: it is asked at every stage of an
 /// integrator.
@@ -21,7 +21,7 @@ use crate::contact::{Contact, ContactForce, Edge, Stored};
 ///    then be worked out with the velocity that it leaves itself ([`Contact::correction`], and what
 ///    [`HertzTsuji`](crate::HertzTsuji#impacts-in-few-steps) does with it).
 /// 4. Forces are taken step by step, and what they miss of an impact where it begins and ends between
-///    two of them can be made up for: see [`at_edge`](Self::at_edge).
+///    two of them can be made up for: see [`at_onset`](Self::at_onset).
 /// 5. [`stored`](Self::stored) tells energy that a contact holds from energy that it has lost. It is
 ///    asked only by observers; by default all of the force's work counts as lost, or as a negative
 ///    loss where it is given back.
@@ -82,23 +82,23 @@ pub trait ForceLaw: ContactLaw<Kind = Forces> {
         *memory
     }
 
-    /// Whether [`at_edge`](Self::at_edge) is to be asked.
+    /// Whether [`at_onset`](Self::at_onset) is to be asked.
     #[inline]
-    fn has_edges(&self) -> bool {
+    fn corrects_onset(&self) -> bool {
         false
     }
 
     /// The force, and what the contact remembers, where the bodies may have met or may part within
-    /// the step ([`Edge::is_near`]). Asked instead of [`force`](Self::force) and
-    /// [`advance`](Self::advance) if the law [has edges](Self::has_edges) to be mended: a contact sets in between two
+    /// the step ([`Onset::is_near`]). Asked instead of [`force`](Self::force) and
+    /// [`advance`](Self::advance) if the law [asks for it](Self::corrects_onset): a contact sets in between two
     /// evaluations, and if its force starts like a power p of time they miss an impulse of the power
     /// p + 1 of the step.
-    fn at_edge(
+    fn at_onset(
         &self,
         coefficients: &Self::Coefficients,
         contact: &Contact,
         memory: &Self::Memory,
-        _edge: &Edge,
+        _onset: &Onset,
     ) -> (ContactForce, Self::Memory) {
         (
             self.force(coefficients, contact, memory),
@@ -155,18 +155,18 @@ macro_rules! forward_law {
             }
 
             #[inline]
-            fn has_edges(&self) -> bool {
-                (**self).has_edges()
+            fn corrects_onset(&self) -> bool {
+                (**self).corrects_onset()
             }
 
-            fn at_edge(
+            fn at_onset(
                 &self,
                 coefficients: &Self::Coefficients,
                 contact: &Contact,
                 memory: &Self::Memory,
-                edge: &Edge,
+                onset: &Onset,
             ) -> (ContactForce, Self::Memory) {
-                (**self).at_edge(coefficients, contact, memory, edge)
+                (**self).at_onset(coefficients, contact, memory, onset)
             }
 
             fn tell_memory(&self, memory: &Self::Memory, tell: &mut dyn FnMut(f64)) {

@@ -4,7 +4,7 @@ use super::friction::{PART_PER_STEP, Rolling, SLIP_MOBILITY, share};
 use super::normal::{Normal, NormalCoefficients, NormalForce, strict_law};
 use super::turn::turned;
 use super::{ContactLaw, ForceLaw, Forces, LawError, at_least, at_most};
-use crate::contact::{Bodies, Contact, ContactForce, Edge, Stored};
+use crate::contact::{Bodies, Contact, ContactForce, Onset, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::Materials;
 
@@ -208,19 +208,19 @@ impl ForceLaw for HertzMindlin {
     }
 
     #[inline]
-    fn has_edges(&self) -> bool {
+    fn corrects_onset(&self) -> bool {
         true
     }
 
-    fn at_edge(
+    fn at_onset(
         &self,
         coefficients: &Coefficients,
         contact: &Contact,
         memory: &TangentialSpring,
-        edge: &Edge,
+        onset: &Onset,
     ) -> (ContactForce, TangentialSpring) {
         let own = &coefficients.normal;
-        let normal = self.normal.at_edge(own, contact, memory.force, edge);
+        let normal = self.normal.at_onset(own, contact, memory.force, onset);
         let Tangential { load, slip, force } =
             self.tangential(coefficients, contact, &normal, memory);
         let answer = ContactForce {

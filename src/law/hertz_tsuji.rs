@@ -1,7 +1,7 @@
 use super::friction::{Friction, Grip};
 use super::normal::{Normal, NormalCoefficients, NormalForce, NormalHistory, strict_law};
 use super::{ContactLaw, ForceLaw, Forces, LawError, at_least};
-use crate::contact::{Bodies, Contact, ContactForce, Edge, Stored};
+use crate::contact::{Bodies, Contact, ContactForce, Onset, Stored};
 use crate::material::Materials;
 
 /// The strict law of the paper: Hertz's spring with damping along the normal, sliding friction
@@ -168,19 +168,19 @@ impl ForceLaw for HertzTsuji {
     }
 
     #[inline]
-    fn has_edges(&self) -> bool {
+    fn corrects_onset(&self) -> bool {
         true
     }
 
-    fn at_edge(
+    fn at_onset(
         &self,
         coefficients: &Coefficients,
         contact: &Contact,
         before: &NormalHistory,
-        edge: &Edge,
+        onset: &Onset,
     ) -> (ContactForce, NormalHistory) {
         let own = &coefficients.normal;
-        let Normal { force, .. } = self.normal.at_edge(own, contact, before.force, edge);
+        let Normal { force, .. } = self.normal.at_onset(own, contact, before.force, onset);
         let answer = self.sliding(coefficients, contact, force);
         (answer, NormalHistory { force })
     }

@@ -49,7 +49,7 @@ pub(super) struct NormalCoefficients {
     /// c in N s/m^(3/2) or N s/m^(5/4).
     pub(super) damping: f64,
     /// 1/m* in 1/kg.
-    pub(super) mobility: f64,
+    pub(super) inverse_mass: f64,
 }
 
 /// What a contact under [`HertzTsuji`](crate::HertzTsuji) remembers: the normal force at the end of the
@@ -67,9 +67,9 @@ impl NormalCoefficients {
     #[inline(always)]
     pub(super) fn yielding(mut self, damping: Damping, contact: &Contact) -> Self {
         if contact.wall_inverse_mass > 0.0 {
-            let at_rest = self.mobility;
-            self.mobility += contact.wall_inverse_mass;
-            self.damping *= damping.of_mass(at_rest / self.mobility);
+            let at_rest = self.inverse_mass;
+            self.inverse_mass += contact.wall_inverse_mass;
+            self.damping *= damping.of_mass(at_rest / self.inverse_mass);
         }
         self
     }
@@ -197,7 +197,7 @@ impl NormalForce {
         let coefficients = NormalCoefficients {
             stiffness: impact.stiffness(),
             damping,
-            mobility: 1.0 / impact.effective_mass(),
+            inverse_mass: 1.0 / impact.effective_mass(),
         };
         let rate = self.damping.greatest_rate(damping, &impact);
         let quickness = (frequency * impact.duration() / PI).max(1.0);
@@ -224,7 +224,7 @@ impl NormalForce {
         };
         let resistance = coefficients.damping * shape;
         let spring = coefficients.stiffness * overlap * root;
-        let gain = coefficients.mobility * contact.correction;
+        let gain = coefficients.inverse_mass * contact.correction;
         let speed = contact.approach_speed() + before * gain;
         let force = (spring + resistance * speed) / (1.0 + resistance * gain);
         Normal {

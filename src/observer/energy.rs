@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::{ContactEvent, Frame, Observer};
+use super::{ContactEvent, Observer, StepReport};
 use crate::contact::Stored;
 use crate::mount::MountEnergy;
 
@@ -143,8 +143,8 @@ impl EnergyLedger {
     /// Works of the contacts on the particles over the step, by the change of their momentum: what
     /// the containers give, and what is taken from motion relative to them. Whatever the integrator,
     /// these are the works of the forces that it used.
-    fn exchanged(&self, frame: &Frame<'_>) -> [f64; 2] {
-        let fall = frame.gravity() * frame.time_step();
+    fn exchanged(&self, report: &StepReport<'_>) -> [f64; 2] {
+        let fall = report.gravity() * report.time_step();
         let (mut given, mut taken) = (0.0, 0.0);
         for (now, mean) in self.pace.particles.iter().zip(&self.mean.particles) {
             let impulse = now.mass * (2.0 * (now.velocity - mean.velocity) - fall);
@@ -156,8 +156,8 @@ impl EnergyLedger {
         [given, taken]
     }
 
-    fn count_contacts(&mut self, frame: &Frame<'_>, now: &Balance, all: f64) {
-        let dt = frame.time_step();
+    fn count_contacts(&mut self, report: &StepReport<'_>, now: &Balance, all: f64) {
+        let dt = report.time_step();
         let mut taken = [[0.0; 2]; 2];
         let mut take = |touch: &Touch, [velocity, spin]: [DVec3; 2], time: f64| {
             let powers = touch.powers(velocity, spin);
@@ -165,7 +165,7 @@ impl EnergyLedger {
             sums[0] += powers[0] * time;
             sums[1] += powers[1] * time;
         };
-        if frame.holds_forces() {
+        if report.holds_forces() {
             for touch in &self.touches {
                 take(touch, [touch.working_velocity, touch.working_spin], dt);
             }
@@ -187,18 +187,18 @@ impl EnergyLedger {
         self.losses.add(&taken);
     }
 
-    fn count_input(&mut self, frame: &Frame<'_>, mount: &MountEnergy, given: f64) {
-        let half = 0.5 * frame.time_step();
+    fn count_input(&mut self, report: &StepReport<'_>, mount: &MountEnergy, given: f64) {
+        let half = 0.5 * report.time_step();
         let before = &self.last.mount;
         self.input += half * (before.input + mount.input);
         self.structure += half * (before.dissipation + mount.dissipation);
-        if frame.coordinates().is_empty() {
+        if report.coordinates().is_empty() {
             self.input += given;
         }
     }
 
-    fn balance(&mut self, frame: &Frame<'_>) -> Balance {
-        let mount = frame.mount_energy();
+    fn balance(&mut self, report: &StepReport<'_>) -> Balance {
+        let mount = report.mount_energy();
         let mut energies = Energies {
             mount: mount.kinetic,
             spring: mount.potential,
@@ -207,7 +207,7 @@ impl EnergyLedger {
         for particle in &self.pace.particles {
             energies.translation += 0.5 * particle.mass * particle.velocity.length_squared();
             energies.spin += 0.5 * particle.inertia() * particle.spin.length_squared();
-            energies.gravity -= particle.mass * frame.gravity().dot(particle.position);
+            energies.gravity -= particle.mass * report.gravity().dot(particle.position);
         }
         for stored in &self.stored {
             energies.contacts += stored.normal + stored.tangential;
@@ -237,21 +237,21 @@ impl Observer for EnergyLedger {
         sum.tangential += event.stored.tangential;
     }
 
-    fn step(&mut self, frame: &Frame<'_>) {
+    fn step(&mut self, report: &StepReport<'_>) {
         std::mem::swap(&mut self.pace, &mut self.mean);
-        self.pace.read(frame);
+        self.pace.read(report);
         self.mean.average(&self.pace);
-        let balance = self.balance(frame);
+        let balance = self.balance(report);
         if self.open {
-            let [given, taken] = self.exchanged(frame);
-            self.count_contacts(frame, &balance, taken);
-            self.count_input(frame, &balance.mount, given);
+            let [given, taken] = self.exchanged(report);
+            self.count_contacts(report, &balance, taken);
+            self.count_input(report, &balance.mount, given);
         } else {
             self.open = true;
             self.opening = balance.energies;
         }
         self.last = balance;
-        self.held = frame.holds_forces();
+        self.held = report.holds_forces();
         std::mem::swap(&mut self.touches, &mut self.touches_before);
         self.touches.clear();
     }

@@ -1,4 +1,4 @@
-use super::{ContactEvent, Frame, Observer};
+use super::{ContactEvent, Observer, StepReport};
 
 /// The largest values met so far, zero at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -34,8 +34,10 @@ impl Observer for Extremes {
         self.approach_speed = self.approach_speed.max(event.contact.approach_speed());
     }
 
-    fn step(&mut self, frame: &Frame<'_>) {
-        let speeds = frame.particles().map(|particle| particle.velocity.length());
+    fn step(&mut self, report: &StepReport<'_>) {
+        let speeds = report
+            .particles()
+            .map(|particle| particle.velocity.length());
         self.speed = speeds.fold(self.speed, f64::max);
     }
 }

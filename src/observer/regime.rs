@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::{ContactEvent, Frame, Observer};
+use super::{ContactEvent, Observer, StepReport};
 use crate::damper::Partner;
 
 /// The state that a bed is in, as means over the time watched.
@@ -91,11 +91,11 @@ impl Observer for BedRegime {
         }
     }
 
-    fn step(&mut self, frame: &Frame<'_>) {
-        if frame.is_empty() {
+    fn step(&mut self, report: &StepReport<'_>) {
+        if report.is_empty() {
             return;
         }
-        let (dt, count) = (frame.time_step(), frame.len() as f64);
+        let (dt, count) = (report.time_step(), report.len() as f64);
         let touching = self.touches.iter().filter(|touches| **touches > 0).count() as f64;
         let contacts: u32 = self.touches.iter().sum();
         self.time += dt;
@@ -103,8 +103,8 @@ impl Observer for BedRegime {
         self.in_flight += dt * (1.0 - touching / count);
         self.off_walls += dt * f64::from(self.at_walls == 0);
         let (mut mass, mut place, mut momentum, mut energy) = (0.0, DVec3::ZERO, DVec3::ZERO, 0.0);
-        for particle in frame.particles() {
-            let origin = frame
+        for particle in report.particles() {
+            let origin = report
                 .container(particle.cavity as usize)
                 .unwrap_or_default();
             mass += particle.mass;

@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::{ContactEvent, Frame, Observer};
+use super::{ContactEvent, Observer, StepReport};
 use crate::damper::Partner;
 
 /// What happened at one wall.
@@ -74,25 +74,25 @@ impl Observer for WallRecorder {
         }
     }
 
-    fn step(&mut self, frame: &Frame<'_>) {
+    fn step(&mut self, report: &StepReport<'_>) {
         if self.records.is_empty() {
-            for cavity in 0..frame.cavities() {
+            for cavity in 0..report.cavities() {
                 self.records
-                    .extend((0..frame.walls(cavity)).map(|wall| WallRecord {
+                    .extend((0..report.walls(cavity)).map(|wall| WallRecord {
                         cavity,
                         wall,
                         ..WallRecord::default()
                     }));
             }
         }
-        self.time += frame.time_step();
+        self.time += report.time_step();
         self.now.sort_unstable();
         self.now.dedup();
         for record in &mut self.records {
-            let load = frame.wall_load(record.cavity, record.wall);
+            let load = report.wall_load(record.cavity, record.wall);
             record.force = load.unwrap_or_default().force;
             record.peak = record.peak.max(record.force.length());
-            record.impulse += record.force * frame.time_step();
+            record.impulse += record.force * report.time_step();
             let begun = self.now.iter().filter(|contact| {
                 (contact.0, contact.1) == (record.cavity, record.wall)
                     && self.before.binary_search(contact).is_err()

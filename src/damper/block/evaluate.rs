@@ -211,9 +211,9 @@ fn answer_pairs<C: Cavity, L: ForceLaw, const END: bool, const PLANAR: bool>(
     });
     let only = scene.coefficients.only_pair();
     chunk.answer::<true, END, PLANAR>(scene.law, only, kinds, scene.moment);
-    if scene.law.has_edges() {
+    if scene.law.corrects_onset() {
         let acceleration = |n: usize| acceleration_of_pair(scene, bodies[n]);
-        chunk.mend_edges::<true, END>(scene.law, only, scene.moment, acceleration);
+        chunk.correct_onsets::<true, END>(scene.law, only, scene.moment, acceleration);
     }
     if END {
         list.keep_run(run, scene.stamp.wrapping_add(1), chunk.advanced());
@@ -237,9 +237,9 @@ fn answer_walls<C: Cavity, L: ForceLaw, const END: bool, const PLANAR: bool>(
     });
     let only = scene.coefficients.only_wall();
     chunk.answer::<false, END, PLANAR>(scene.law, only, kinds, scene.moment);
-    if scene.law.has_edges() {
+    if scene.law.corrects_onset() {
         let acceleration = |n: usize| scene.acceleration.get(bodies[n][0] as usize);
-        chunk.mend_edges::<false, END>(scene.law, only, scene.moment, acceleration);
+        chunk.correct_onsets::<false, END>(scene.law, only, scene.moment, acceleration);
     }
     if END {
         list.keep_run(run, scene.stamp.wrapping_add(1), chunk.advanced());

@@ -186,18 +186,18 @@ where
                 }
             }
             let [low, high] = cavity.bounds();
-            let extent = high - low;
-            let room = if cavity.is_planar() {
-                extent.x.min(extent.y)
+            let size = high - low;
+            let extent = if cavity.is_planar() {
+                size.x.min(size.y)
             } else {
-                extent.min_element()
+                size.min_element()
             };
             // Pressed into two opposite walls at once.
-            if 2.0 * particle.radius > room + 2.0 * squeeze {
+            if 2.0 * particle.radius > extent + 2.0 * squeeze {
                 return Err(BuildError::TooLarge {
                     particle: number,
                     diameter: 2.0 * particle.radius,
-                    room,
+                    extent,
                 });
             }
         }

@@ -142,13 +142,13 @@ impl<S: Space> Stages<S> {
         let radius = scene.radius;
         // Columns of one length, so that one comparison stands for all their bounds.
         let position = &S::rows(scene.position.flat())[..radius.len()];
-        let movers = &self.bodies[..radius.len()];
+        let bodies_now = &self.bodies[..radius.len()];
         let lanes = &mut self.lanes;
         for (n, [i, j]) in bodies.iter().take(LANES).enumerate() {
             let (i, j) = (*i as usize, *j as usize);
             let towards = S::from_row(position[i]) - S::from_row(position[j]);
             lanes.towards[n] = towards;
-            lanes.closing[n] = S::dot(movers[j].velocity - movers[i].velocity, towards);
+            lanes.closing[n] = S::dot(bodies_now[j].velocity - bodies_now[i].velocity, towards);
             lanes.distance[n] = S::dot(towards, towards);
             lanes.touching[n] = radius[i] + radius[j];
         }

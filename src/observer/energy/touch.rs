@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::damper::Partner;
-use crate::observer::{ContactEvent, Frame};
+use crate::observer::{ContactEvent, StepReport};
 use crate::particle::Particle;
 
 /// A contact with its forces.
@@ -63,11 +63,11 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    pub(super) fn read(&mut self, frame: &Frame<'_>) {
+    pub(super) fn read(&mut self, report: &StepReport<'_>) {
         self.particles.clear();
-        self.particles.extend(frame.particles());
+        self.particles.extend(report.particles());
         self.containers.clear();
-        let containers = (0..frame.cavities()).map_while(|cavity| frame.container(cavity));
+        let containers = (0..report.cavities()).map_while(|cavity| report.container(cavity));
         self.containers
             .extend(containers.map(|motion| motion.velocity));
     }

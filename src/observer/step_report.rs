@@ -7,7 +7,7 @@ use crate::mount::{Motion, MountEnergy};
 use crate::particle::Particle;
 
 /// What a damper shows of itself, whatever it is made of.
-pub(crate) trait View {
+pub(crate) trait Observable {
     fn count(&self) -> usize;
     fn particle(&self, number: usize) -> Option<Particle>;
     fn cavities(&self) -> usize;
@@ -28,14 +28,14 @@ pub(crate) trait View {
 /// A damper at the end of a step. What is asked for is looked up or computed then, and nothing
 /// before.
 #[derive(Clone, Copy)]
-pub struct Frame<'a> {
+pub struct StepReport<'a> {
     time: f64,
     time_step: f64,
-    view: &'a dyn View,
+    view: &'a dyn Observable,
 }
 
-impl<'a> Frame<'a> {
-    pub(crate) const fn new(time: f64, time_step: f64, view: &'a dyn View) -> Self {
+impl<'a> StepReport<'a> {
+    pub(crate) const fn new(time: f64, time_step: f64, view: &'a dyn Observable) -> Self {
         Self {
             time,
             time_step,
@@ -159,9 +159,9 @@ impl<'a> Frame<'a> {
     }
 }
 
-impl fmt::Debug for Frame<'_> {
+impl fmt::Debug for StepReport<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Frame")
+        f.debug_struct("StepReport")
             .field("time", &self.time)
             .field("time_step", &self.time_step)
             .field("particles", &self.len())

@@ -1,4 +1,4 @@
-//! The first and the last step of a contact.
+//! Onset correction: the first and the last step of a contact.
 //!
 //! Bodies meet and part between two evaluations. The force sets in like a power p of time, 3/2 of a
 //! spring, 1/2 or 1/4 of damping, and is not smooth there: whatever the integrator, forces taken at
@@ -14,7 +14,7 @@
 use super::damping::Ending;
 use super::normal::{Normal, NormalCoefficients, NormalForce};
 use super::{at_least, at_most};
-use crate::contact::{Contact, Edge};
+use crate::contact::{Contact, Onset};
 
 /// Relative error of an overlap against the way in a step.
 const ROUNDING: f64 = 1e-6;
@@ -28,15 +28,15 @@ const SLOWED: f64 = 0.5;
 /// with twenty.
 const ENDINGS: usize = 3;
 
-/// Powers of time that forces set in with.
+/// Exponents of time that forces set in with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Power {
+pub(super) enum Exponent {
     Quarter,
     Half,
     ThreeHalves,
 }
 
-impl Power {
+impl Exponent {
     /// Exponent p, and p (p-1) (p-2)/720.
     const fn constants(self) -> (f64, f64) {
         match self {
@@ -70,7 +70,7 @@ impl Power {
 #[derive(Debug, Clone, Copy)]
 struct Sampled {
     own: NormalCoefficients,
-    power: Power,
+    exponent: Exponent,
 }
 
 impl Sampled {
@@ -80,10 +80,11 @@ impl Sampled {
         let NormalCoefficients {
             stiffness, damping, ..
         } = self.own;
-        let spring = stiffness * Power::ThreeHalves.of(way) * Power::ThreeHalves.sampled(part);
+        let spring =
+            stiffness * Exponent::ThreeHalves.of(way) * Exponent::ThreeHalves.sampled(part);
         (
             spring,
-            damping * self.power.of(way) * self.power.sampled(part),
+            damping * self.exponent.of(way) * self.exponent.sampled(part),
         )
     }
 
@@ -100,31 +101,31 @@ impl Sampled {
 impl NormalForce {
     /// The normal force where the bodies may have met or may part within a step h of now, with what
     /// evaluations h apart miss made up for; `before` (N) was that at the end of the step before.
-    pub(super) fn at_edge(
+    pub(super) fn at_onset(
         &self,
         coefficients: &NormalCoefficients,
         contact: &Contact,
         before: f64,
-        edge: &Edge,
+        onset: &Onset,
     ) -> Normal {
         let mut normal = self.at(coefficients, contact, before);
         let own = coefficients.yielding(self.damping, contact);
-        let (overlap, h) = (contact.overlap, edge.time_step);
+        let (overlap, h) = (contact.overlap, onset.time_step);
         // The mean speed since the step began, which is that of touch if they touched since; before its
         // end they may have touched in the step before, and the speed at its start is nearer.
         let back = if contact.elapsed < h { 1.0 } else { 0.5 } * contact.elapsed;
         // A wall that yields gives way to the force that it bore.
-        let acceleration = edge.acceleration + before * contact.wall_inverse_mass;
+        let acceleration = onset.acceleration + before * contact.wall_inverse_mass;
         let coming = contact.approach_speed() + back * acceleration;
-        let gain = own.mobility * contact.correction;
-        let power = self.damping.power();
-        let sampled = Sampled { own, power };
+        let gain = own.inverse_mass * contact.correction;
+        let exponent = self.damping.exponent();
+        let sampled = Sampled { own, exponent };
         let way = coming * h;
         // To within rounding, what tells whether they touched already as the step began is whether they
         // were slowed down then.
         let part = overlap / way;
         let in_step = if (part - 1.0).abs() < ROUNDING {
-            acceleration < 0.5 * own.mobility * sampled.first(coming, way, 0.0, gain)
+            acceleration < 0.5 * own.inverse_mass * sampled.first(coming, way, 0.0, gain)
         } else {
             overlap < way
         };
@@ -133,15 +134,15 @@ impl NormalForce {
             return normal;
         }
         // A contact ends as it sets in, but that damping fades out smoothly where it never pulls.
-        let leaving = |force: f64| force * h * own.mobility - coming;
+        let leaving = |force: f64| force * h * own.inverse_mass - coming;
         let mut way = leaving(normal.force) * h;
         if contact.approach_speed() > 0.0 || overlap > way {
             return normal;
         }
         if self.ending == Ending::NeverPulling || gain == 0.0 {
             let part = overlap / way;
-            let more = Power::ThreeHalves.sampled(part) - Power::ThreeHalves.of(part);
-            let spring = own.stiffness * Power::ThreeHalves.of(way) * more;
+            let more = Exponent::ThreeHalves.sampled(part) - Exponent::ThreeHalves.of(part);
+            let spring = own.stiffness * Exponent::ThreeHalves.of(way) * more;
             normal.force = self.ended(normal.force + spring);
             return normal;
         }
@@ -166,13 +167,17 @@ mod tests {
     /// -zeta(-p, 1), Abramowitz & Stegun 23.2 and tables.
     #[test]
     fn at_the_touch_it_is_riemanns_zeta() {
-        assert_abs_diff_eq!(Power::ThreeHalves.sampled(0.0), 0.025_485, epsilon = 1e-4);
-        assert_abs_diff_eq!(Power::Half.sampled(0.0), 0.207_886, epsilon = 1e-4);
+        assert_abs_diff_eq!(
+            Exponent::ThreeHalves.sampled(0.0),
+            0.025_485,
+            epsilon = 1e-4
+        );
+        assert_abs_diff_eq!(Exponent::Half.sampled(0.0), 0.207_886, epsilon = 1e-4);
     }
 
     #[test]
     fn a_late_first_evaluation_is_as_good_as_an_early_one_before_it() {
-        for power in [Power::Quarter, Power::Half, Power::ThreeHalves] {
+        for power in [Exponent::Quarter, Exponent::Half, Exponent::ThreeHalves] {
             // Just one step after the touch, or at the touch and one step later.
             let (late, early) = (power.sampled(1.0), 1.0 + power.sampled(0.0));
             assert_abs_diff_eq!(late, early, epsilon = 2e-4);
@@ -182,7 +187,7 @@ mod tests {
     /// Sums of t^p from the touch on, the first term replaced, against the integral.
     #[test]
     fn sums_become_integrals() {
-        for power in [Power::Quarter, Power::Half, Power::ThreeHalves] {
+        for power in [Exponent::Quarter, Exponent::Half, Exponent::ThreeHalves] {
             let (p, _) = power.constants();
             for part in [0.01, 0.3, 0.62, 1.0] {
                 let count = 2000;
