@@ -57,7 +57,8 @@
 //! | cavity | [`Cavity`] | [`Slot`] (the paper's) and [`Disc`](cavity::Disc) in the plane, [`Cuboid`], [`Cylinder`](cavity::Cylinder), [`Sphere`](cavity::Sphere) |
 //!
 //! Around them: [`Materials`] and their pairs, [`Filling`], [`excitation`]s of an oscillator,
-//! [`Observer`]s such as the [`EnergyLedger`], [`Snapshot`]s, and [`response`] curves.
+//! [`Observer`]s such as the [`EnergyLedger`], [`Snapshot`]s, [`response`] curves, and [`statistics`] that
+//! say how sure a mean is.
 //!
 //! # What happens in a step
 //!
@@ -122,6 +123,7 @@ mod parallel;
 mod particle;
 mod random;
 pub mod response;
+pub mod statistics;
 
 pub use glam;
 
