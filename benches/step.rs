@@ -129,9 +129,11 @@ fn shaken<C: Cavity + Clone, L: ContactLaw>(
 ) {
     let (cavity, law, bed) = parts;
     let w = std::f64::consts::TAU * 6.0;
-    let mount = Prescribed(move |time: f64| Motion {
-        position: DVec3::Y * 0.005 * (1.0 - (w * time).cos()),
-        velocity: DVec3::Y * 0.005 * w * (w * time).sin(),
+    let mount = Prescribed(move |time: f64| {
+        Motion::at(
+            DVec3::Y * 0.005 * (1.0 - (w * time).cos()),
+            DVec3::Y * 0.005 * w * (w * time).sin(),
+        )
     });
     let damper = Damper::builder(cavity.clone(), law)
         .mount(mount)

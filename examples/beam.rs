@@ -72,10 +72,7 @@ impl Mount for Beam {
     }
 
     fn motion(&self, _time: f64, q: &[f64], v: &[f64], _cavity: usize) -> Motion {
-        Motion {
-            position: DVec3::Y * self.at_tip(q),
-            velocity: DVec3::Y * self.at_tip(v),
-        }
+        Motion::at(DVec3::Y * self.at_tip(q), DVec3::Y * self.at_tip(v))
     }
 
     fn accelerate(&self, _time: f64, q: &[f64], v: &[f64], loads: &[DVec3], a: &mut [f64]) {

@@ -215,10 +215,10 @@ impl Options {
         let count = particles.len() as f64;
         let shaken = |time: f64| {
             let (sine, cosine) = (TAU * FREQUENCY * time).sin_cos();
-            Motion {
-                position: AMPLITUDE * (1.0 - cosine) * DVec3::Y,
-                velocity: TAU * FREQUENCY * AMPLITUDE * sine * DVec3::Y,
-            }
+            Motion::at(
+                AMPLITUDE * (1.0 - cosine) * DVec3::Y,
+                TAU * FREQUENCY * AMPLITUDE * sine * DVec3::Y,
+            )
         };
         let mut damper = Damper::builder(cavity, law)
             .mount(Prescribed(shaken))

@@ -33,10 +33,10 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     let (mut rows, mut points, mut work) = (Vec::new(), Vec::new(), 0.0);
     for step in 1..=500 {
         let time = f64::from(step) * interval;
-        let end = Motion {
-            position: DVec3::Y * amplitude * (1.0 - (w * time).cos()),
-            velocity: DVec3::Y * amplitude * w * (w * time).sin(),
-        };
+        let end = Motion::at(
+            DVec3::Y * amplitude * (1.0 - (w * time).cos()),
+            DVec3::Y * amplitude * w * (w * time).sin(),
+        );
         let reaction = damper.drive(end, interval)?;
         work -= reaction.impulse.dot(end.velocity);
         let mean_force = reaction.impulse.y / interval;

@@ -84,9 +84,11 @@ fn main() -> Result<(), Failure> {
         .with(120, Particle::new(2e-3, 0.06e-3)?)
         .with(30, Particle::new(3e-3, 0.2e-3)?);
     let (amplitude, omega) = (4e-3, TAU * 12.0);
-    let shaken = Prescribed(move |time: f64| Motion {
-        position: DVec3::Y * amplitude * (omega * time).sin(),
-        velocity: DVec3::Y * amplitude * omega * (omega * time).cos(),
+    let shaken = Prescribed(move |time: f64| {
+        Motion::at(
+            DVec3::Y * amplitude * (omega * time).sin(),
+            DVec3::Y * amplitude * omega * (omega * time).cos(),
+        )
     });
     let mut damper = Damper::builder(cavity, RestitutionImpulse::new(Material::acrylic()))
         .mount(shaken)

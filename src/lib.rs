@@ -25,7 +25,7 @@
 //! for _ in 0..400 {
 //!     v -= stiffness * x / mass * interval;
 //!     x += v * interval;
-//!     let end = Motion { position: DVec3::Y * x, velocity: DVec3::Y * v };
+//!     let end = Motion::at(DVec3::Y * x, DVec3::Y * v);
 //!     let reaction = damper.drive(end, interval)?;
 //!     v += reaction.impulse.y / mass;
 //! }

@@ -20,6 +20,14 @@ pub struct Motion {
     pub velocity: DVec3,
 }
 
+impl Motion {
+    /// A container at `position` (m) that moves with `velocity` (m/s).
+    #[must_use]
+    pub const fn at(position: DVec3, velocity: DVec3) -> Self {
+        Self { position, velocity }
+    }
+}
+
 /// Energy of a mount at an instant, and the powers that change it, the particles' apart.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
@@ -90,7 +98,7 @@ impl MountEnergy {
 ///         2
 ///     }
 ///     fn motion(&self, _time: f64, x: &[f64], v: &[f64], cavity: usize) -> Motion {
-///         Motion { position: DVec3::X * x[cavity], velocity: DVec3::X * v[cavity] }
+///         Motion::at(DVec3::X * x[cavity], DVec3::X * v[cavity])
 ///     }
 ///     fn accelerate(&self, _time: f64, x: &[f64], _v: &[f64], loads: &[DVec3], a: &mut [f64]) {
 ///         let spring = self.stiffness * (x[1] - x[0]);

@@ -350,10 +350,10 @@ fn a_restored_damper_is_driven_on_to_the_same_bits() {
         let motion = |n: u32| {
             let time = f64::from(n) * 2.7 * time_step;
             let speed = 0.3 - 4.0 * time;
-            Motion {
-                position: dvec3(0.1 * time, 0.3 * time - 2.0 * time * time, 0.0),
-                velocity: dvec3(0.1, speed, 0.0),
-            }
+            Motion::at(
+                dvec3(0.1 * time, 0.3 * time - 2.0 * time * time, 0.0),
+                dvec3(0.1, speed, 0.0),
+            )
         };
         let mut damper = build();
         for n in 1..700 {

@@ -35,9 +35,11 @@ fn for_tall_beds() -> SolverParameters {
 fn shaken(peak: f64, frequency: f64) -> impl Fn(f64) -> Motion {
     let omega = TAU * frequency;
     let amplitude = peak * 9.81 / (omega * omega);
-    move |t: f64| Motion {
-        position: DVec3::Y * amplitude * (omega * t).sin(),
-        velocity: DVec3::Y * amplitude * omega * (omega * t).cos(),
+    move |t: f64| {
+        Motion::at(
+            DVec3::Y * amplitude * (omega * t).sin(),
+            DVec3::Y * amplitude * omega * (omega * t).cos(),
+        )
     }
 }
 
@@ -183,9 +185,11 @@ fn a_layer_squeezed_by_a_heavy_one_holds() {
     for peak in [3.0, 20.0] {
         let light = (0..10).map(|n| grain(1.0).at(place(n, 0)));
         let heavy = (0..10).map(|n| grain(44.0).at(place(n, 1)));
-        let pressed = move |t: f64| Motion {
-            position: DVec3::Y * 0.5 * peak * 9.81 * t * t,
-            velocity: DVec3::Y * peak * 9.81 * t,
+        let pressed = move |t: f64| {
+            Motion::at(
+                DVec3::Y * 0.5 * peak * 9.81 * t * t,
+                DVec3::Y * peak * 9.81 * t,
+            )
         };
         let bed = light.chain(heavy).collect();
         let found = overlaps(

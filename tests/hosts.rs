@@ -25,17 +25,14 @@ fn hosted<L: ContactLaw>(law: L) -> Hosted<L> {
 
 fn shaken(time: f64) -> Motion {
     let (sine, cosine) = (40.0 * time).sin_cos();
-    Motion {
-        position: dvec3(1.0, 2.0, 1.0) * (1e-3 * sine),
-        velocity: dvec3(1.0, 2.0, 1.0) * (0.04 * cosine),
-    }
+    Motion::at(
+        dvec3(1.0, 2.0, 1.0) * (1e-3 * sine),
+        dvec3(1.0, 2.0, 1.0) * (0.04 * cosine),
+    )
 }
 
 fn still_at(position: DVec3) -> Motion {
-    Motion {
-        position,
-        velocity: DVec3::ZERO,
-    }
+    Motion::at(position, DVec3::ZERO)
 }
 
 /// Drives over `steps` intervals of a millisecond; returns the bits of the forces.
@@ -254,10 +251,7 @@ impl Mount for Broken {
     }
 
     fn motion(&self, _time: f64, x: &[f64], v: &[f64], _cavity: usize) -> Motion {
-        Motion {
-            position: DVec3::Y * x[0],
-            velocity: DVec3::Y * v[0],
-        }
+        Motion::at(DVec3::Y * x[0], DVec3::Y * v[0])
     }
 
     fn accelerate(&self, time: f64, _: &[f64], _: &[f64], loads: &[DVec3], a: &mut [f64]) {
@@ -444,10 +438,7 @@ fn a_host_far_lighter_than_its_bed_converges_by_relaxation() {
                 let gain = (impulse - stiffness * x * interval) / mass;
                 let end_v = (v * (1.0 - q) + gain) / (1.0 + q);
                 let end_x = x + 0.5 * interval * (v + end_v);
-                let end = Motion {
-                    position: DVec3::Y * end_x,
-                    velocity: DVec3::Y * end_v,
-                };
+                let end = Motion::at(DVec3::Y * end_x, DVec3::Y * end_v);
                 let error = damper.drive(end, interval).unwrap().impulse.y - impulse;
                 if error.abs() < 1e-6 * (mass + bed) {
                     (x, v) = (end_x, end_v);

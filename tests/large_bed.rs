@@ -13,10 +13,10 @@ const STEPS: usize = 1100;
 
 fn shaken(time: f64) -> Motion {
     let w = std::f64::consts::TAU * 6.0;
-    Motion {
-        position: DVec3::Y * 0.01 * (1.0 - (w * time).cos()),
-        velocity: DVec3::Y * 0.01 * w * (w * time).sin(),
-    }
+    Motion::at(
+        DVec3::Y * 0.01 * (1.0 - (w * time).cos()),
+        DVec3::Y * 0.01 * w * (w * time).sin(),
+    )
 }
 
 type Shaken = Prescribed<fn(f64) -> Motion>;

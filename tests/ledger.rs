@@ -192,9 +192,11 @@ fn impulses_account_exactly_for_the_kinetic_energy_they_take() {
 
 #[test]
 fn the_work_of_moving_a_container_is_the_input() {
-    let shaken = |t: f64| Motion {
-        position: DVec3::Y * 0.01 * (40.0 * t).sin(),
-        velocity: DVec3::Y * 0.4 * (40.0 * t).cos(),
+    let shaken = |t: f64| {
+        Motion::at(
+            DVec3::Y * 0.01 * (40.0 * t).sin(),
+            DVec3::Y * 0.4 * (40.0 * t).cos(),
+        )
     };
     let law = RestitutionImpulse::new(acrylic());
     let mut damper = Damper::builder(Slot::paper(), law)

@@ -220,10 +220,10 @@ fn impulse_is_the_change_of_momentum<L: ContactLaw, I: Integrator>(law: L, integ
     let (mut largest, mut moved) = (0.0_f64, 0.0_f64);
     for n in 1..3000 {
         let time = f64::from(n) * interval;
-        let end = Motion {
-            position: dvec3(0.05 * time, 0.2 * time - 3.0 * time * time, 0.0),
-            velocity: dvec3(0.05, 0.2 - 6.0 * time, 0.0),
-        };
+        let end = Motion::at(
+            dvec3(0.05 * time, 0.2 * time - 3.0 * time * time, 0.0),
+            dvec3(0.05, 0.2 - 6.0 * time, 0.0),
+        );
         let before = damper.momentum();
         let impulse = damper.drive(end, interval).unwrap().impulse;
         let lost = before + gravity * (mass * interval) - damper.momentum();
@@ -257,10 +257,7 @@ fn slammed<L: ContactLaw>(law: L, time_step: f64) {
         for _ in 0..(0.02 / time_step) as usize {
             place += speed * time_step + 0.5 * acceleration * time_step * time_step;
             speed += acceleration * time_step;
-            let end = Motion {
-                position: DVec3::Y * place,
-                velocity: DVec3::Y * speed,
-            };
+            let end = Motion::at(DVec3::Y * place, DVec3::Y * speed);
             damper.drive(end, time_step).unwrap();
             assert_eq!(damper.outside(), 0, "at {} s", damper.time());
         }
@@ -426,10 +423,7 @@ fn survives_its_host<L: ContactLaw + Clone>(law: &L, time_step: f64) {
     let mut damper = build();
     steps(&mut damper, 2000);
     let good = damper.snapshot();
-    let at = |position| Motion {
-        position,
-        velocity: DVec3::ZERO,
-    };
+    let at = |position| Motion::at(position, DVec3::ZERO);
 
     // An impulse law looks at the contacts at the start of a step, so it may tell one later.
     let metre = (0..2).find_map(|_| damper.drive(at(DVec3::Y), time_step).err());

@@ -30,10 +30,10 @@ fn bed(small: usize, large: usize) -> (Materials, Vec<Particle>, Cuboid) {
 
 fn shaken(time: f64) -> Motion {
     let (sine, cosine) = (100.0 * time).sin_cos();
-    Motion {
-        position: dvec3(2.0, 3.0, 1.0) * (1e-3 * sine),
-        velocity: dvec3(2.0, 3.0, 1.0) * (0.1 * cosine),
-    }
+    Motion::at(
+        dvec3(2.0, 3.0, 1.0) * (1e-3 * sine),
+        dvec3(2.0, 3.0, 1.0) * (0.1 * cosine),
+    )
 }
 
 type Shaken<D> = Damper<Cuboid, RestitutionImpulse, Driven, D>;

@@ -126,10 +126,7 @@ fn driven<L: ContactLaw>(name: &str, law: L, time_step: f64) {
                 speed = -speed;
             }
             place += speed * 2.0 * time_step;
-            let end = Motion {
-                position: DVec3::Y * place,
-                velocity: DVec3::Y * speed,
-            };
+            let end = Motion::at(DVec3::Y * place, DVec3::Y * speed);
             damper.drive(end, 2.0 * time_step).unwrap();
         }
     };

@@ -210,10 +210,7 @@ impl Case {
             finite_or_told(&mut damper);
         } else {
             let mut damper = builder.build()?;
-            let end = Motion {
-                position: dvec3(n[16], n[17] * 1e-4, n[22]),
-                velocity: dvec3(0.0, n[17], 0.0),
-            };
+            let end = Motion::at(dvec3(n[16], n[17] * 1e-4, n[22]), dvec3(0.0, n[17], 0.0));
             // Few steps, or an interval that is refused.
             for share in [0.5, 3.0, 1e12] {
                 let _ = damper.drive(end, share * damper.time_step());

@@ -335,10 +335,7 @@ fn a_session_of_a_host_is_replayed_from_one_file() {
         };
         let at = |time: f64| {
             let (sine, cosine) = (40.0 * time).sin_cos();
-            Motion {
-                position: DVec3::Y * (5e-3 * sine),
-                velocity: DVec3::Y * (0.2 * cosine),
-            }
+            Motion::at(DVec3::Y * (5e-3 * sine), DVec3::Y * (0.2 * cosine))
         };
         let mut host = Recorded::new(build(), 7);
         let mut time = 0.0;
@@ -353,10 +350,7 @@ fn a_session_of_a_host_is_replayed_from_one_file() {
             host.drive_to(at(time), time).unwrap();
             if step == 40 {
                 let good = host.snapshot();
-                let far = Motion {
-                    position: DVec3::Y,
-                    velocity: DVec3::ZERO,
-                };
+                let far = Motion::at(DVec3::Y, DVec3::ZERO);
                 assert!((0..2).any(|_| host.drive(far, 1e-5).is_err()));
                 host.restore(&good).unwrap();
             }

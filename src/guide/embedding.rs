@@ -17,7 +17,7 @@
 //!
 //! // The host: a body of 0.1 kg that flies freely, along any axis.
 //! let interval = 1e-3;
-//! let mut body = Motion { position: DVec3::ZERO, velocity: DVec3::new(0.3, 1.0, -0.2) };
+//! let mut body = Motion::at(DVec3::ZERO, DVec3::new(0.3, 1.0, -0.2));
 //! for _ in 0..100 {
 //!     body.velocity += DVec3::NEG_Y * 9.81 * interval;
 //!     body.position += body.velocity * interval;
@@ -77,7 +77,7 @@
 //!         let q = 0.25 * stiffness * interval * interval / mass;
 //!         let end_v = (v * (1.0 - q) + (impulse - stiffness * x * interval) / mass) / (1.0 + q);
 //!         let end_x = x + 0.5 * interval * (v + end_v);
-//!         let end = Motion { position: DVec3::Y * end_x, velocity: DVec3::Y * end_v };
+//!         let end = Motion::at(DVec3::Y * end_x, DVec3::Y * end_v);
 //!         let error = damper.drive(end, interval)?.impulse.y - impulse;
 //!         accepted = error.abs() < 1e-6 * (mass + bed);
 //!         if accepted {
@@ -174,7 +174,7 @@
 //! }
 //!
 //! fn hosted(h: f64, until: f64) -> Result<f64, Failure> {
-//!     let at = |x: f64, v: f64| Motion { position: DVec3::Y * x, velocity: DVec3::Y * v };
+//!     let at = |x: f64, v: f64| Motion::at(DVec3::Y * x, DVec3::Y * v);
 //!     let mut damper = Damper::builder(Slot::paper(), RestitutionImpulse::new(Material::acrylic()))
 //!         .mount(Driven::at(at(0.02, 0.0)))
 //!         .particles(bed()?)

@@ -59,10 +59,7 @@ impl Driven {
         let excess_to = self.to.velocity * h - step;
         let bend = excess_from * (s * (1.0 - s) * (1.0 - s)) - excess_to * (s * s * (1.0 - s));
         let slope = excess_from * ((1.0 - s) * (1.0 - 3.0 * s)) - excess_to * (s * (2.0 - 3.0 * s));
-        Motion {
-            position: self.from.position + step * s + bend,
-            velocity: (step + slope) / h,
-        }
+        Motion::at(self.from.position + step * s + bend, (step + slope) / h)
     }
 }
 
@@ -90,9 +87,9 @@ impl Mount for Driven {
 /// use particle_damper::mount::{Motion, Prescribed};
 ///
 /// let (amplitude, omega) = (0.01, 37.7);
-/// let shaken = Prescribed(move |t: f64| Motion {
-///     position: DVec3::Y * amplitude * (omega * t).sin(),
-///     velocity: DVec3::Y * amplitude * omega * (omega * t).cos(),
+/// let shaken = Prescribed(move |t: f64| {
+///     let (sine, cosine) = (omega * t).sin_cos();
+///     Motion::at(DVec3::Y * amplitude * sine, DVec3::Y * amplitude * omega * cosine)
 /// });
 /// ```
 #[derive(Debug, Clone, Copy)]
@@ -114,10 +111,7 @@ mod tests {
     #[test]
     fn the_cubic_has_the_given_motions_at_its_ends_and_a_steady_one_between() {
         let mut mount = Driven::default();
-        let to = Motion {
-            position: DVec3::new(0.1, 0.2, 0.0),
-            velocity: DVec3::new(-1.0, 3.0, 0.0),
-        };
+        let to = Motion::at(DVec3::new(0.1, 0.2, 0.0), DVec3::new(-1.0, 3.0, 0.0));
         mount.head_for(2.0, 0.5, Motion::default(), to);
         let end = mount.motion(2.5, &[], &[], 0);
         assert_eq!(end, to);
@@ -127,10 +121,7 @@ mod tests {
         assert_eq!(mount.motion(2.0, &[], &[], 0), Motion::default());
 
         let steady = DVec3::X * 2.0;
-        let through = |position| Motion {
-            position,
-            velocity: steady,
-        };
+        let through = |position| Motion::at(position, steady);
         mount.head_for(0.0, 0.5, through(DVec3::ZERO), through(DVec3::X));
         let middle = mount.motion(0.2, &[], &[], 0);
         assert!((middle.position - DVec3::X * 0.4).length() < 1e-15);

@@ -131,10 +131,7 @@ impl<E: Excitation> Mount for SingleDof<E> {
 
     #[inline]
     fn motion(&self, _time: f64, x: &[f64], v: &[f64], _cavity: usize) -> Motion {
-        Motion {
-            position: self.axis * x[0],
-            velocity: self.axis * v[0],
-        }
+        Motion::at(self.axis * x[0], self.axis * v[0])
     }
 
     #[inline]

@@ -161,10 +161,7 @@ impl Mount for TwoMasses {
     fn motion(&self, _time: f64, x: &[f64], v: &[f64], cavity: usize) -> Motion {
         // The containers stand a metre apart.
         let place = DVec3::Z * cavity as f64;
-        Motion {
-            position: place + DVec3::X * x[cavity],
-            velocity: DVec3::X * v[cavity],
-        }
+        Motion::at(place + DVec3::X * x[cavity], DVec3::X * v[cavity])
     }
 
     fn accelerate(&self, _time: f64, x: &[f64], _v: &[f64], loads: &[DVec3], a: &mut [f64]) {

@@ -140,10 +140,7 @@ fn builders_refuse_what_cannot_be() {
         plane,
         &["axis of the mount"],
     );
-    let away = Prescribed(|_: f64| Motion {
-        position: DVec3::Z,
-        velocity: DVec3::ZERO,
-    });
+    let away = Prescribed(|_: f64| Motion::at(DVec3::Z, DVec3::ZERO));
     let step =
         |error: &BuildError| matches!(error, BuildError::Start(StepError::OutOfPlane { .. }));
     table.row(
@@ -151,10 +148,7 @@ fn builders_refuse_what_cannot_be() {
         step,
         &["container of cavity 0", "z = 0"],
     );
-    let lost = Prescribed(|_: f64| Motion {
-        position: DVec3::NAN,
-        velocity: DVec3::ZERO,
-    });
+    let lost = Prescribed(|_: f64| Motion::at(DVec3::NAN, DVec3::ZERO));
     let step = |error: &BuildError| matches!(error, BuildError::Start(StepError::Container { .. }));
     table.row(
         start().time_step(1e-5).mount(lost).build(),

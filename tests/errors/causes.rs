@@ -40,10 +40,7 @@ impl Mount for Fluttering {
         v[0] = 0.1;
     }
     fn motion(&self, _time: f64, x: &[f64], v: &[f64], _cavity: usize) -> Motion {
-        Motion {
-            position: DVec3::Y * x[0],
-            velocity: DVec3::Y * v[0],
-        }
+        Motion::at(DVec3::Y * x[0], DVec3::Y * v[0])
     }
     fn accelerate(&self, _time: f64, x: &[f64], v: &[f64], loads: &[DVec3], a: &mut [f64]) {
         a[0] = 200.0 * v[0] - 1e5 * x[0] + 1e-3 * loads[0].y;
@@ -99,7 +96,7 @@ fn a_host_that_runs_away_is_named_by_what_it_does_to_the_container() {
             let velocity = DVec3::Y * (5.0 / 3.0 * x / (steps * dt));
             let position = DVec3::Y * x;
             damper
-                .drive(Motion { position, velocity }, steps * dt)
+                .drive(Motion::at(position, velocity), steps * dt)
                 .map(|_| ())
         });
         let is = |error: &StepError| matches!(cause(error), Some(Cause::Container { velocity, .. }) if velocity.length() > 1.0);
@@ -142,10 +139,8 @@ fn a_container_that_leaps_is_refused_where_no_particle_tells() {
     let mut table = Table::default();
     let room = Cuboid::new(DVec3::splat(0.1)).unwrap();
     // A step of 2 mm after 10 ms, that reaches no particle.
-    let leaping = Prescribed(|t: f64| Motion {
-        position: DVec3::X * if t > 0.01 { 2e-3 } else { 0.0 },
-        velocity: DVec3::ZERO,
-    });
+    let leaping =
+        Prescribed(|t: f64| Motion::at(DVec3::X * if t > 0.01 { 2e-3 } else { 0.0 }, DVec3::ZERO));
     let floating = particle().at(DVec3::splat(0.05));
     let mut damper = Damper::builder(room, law())
         .mount(leaping)
@@ -161,9 +156,8 @@ fn a_container_that_leaps_is_refused_where_no_particle_tells() {
 
 fn shaken(velocity: impl Fn(f64) -> f64 + Copy) -> Result<(), StepError> {
     let mount = || {
-        Prescribed(move |t: f64| Motion {
-            position: DVec3::Y * (1e-2 * (40.0 * t).sin()),
-            velocity: DVec3::Y * velocity(t),
+        Prescribed(move |t: f64| {
+            Motion::at(DVec3::Y * (1e-2 * (40.0 * t).sin()), DVec3::Y * velocity(t))
         })
     };
     let mut strict = Damper::builder(Slot::paper(), law())
@@ -198,9 +192,11 @@ fn a_prescribed_velocity_that_is_not_the_rate_of_its_position_is_refused() {
 #[test]
 fn a_prescribed_motion_may_have_kinks() {
     for start in [0.0101, 0.010_133, 0.0102] {
-        let belt = Prescribed(|t: f64| Motion {
-            position: DVec3::X * (0.5 * (t - start).max(0.0)),
-            velocity: DVec3::X * if t > start { 0.5 } else { 0.0 },
+        let belt = Prescribed(|t: f64| {
+            Motion::at(
+                DVec3::X * (0.5 * (t - start).max(0.0)),
+                DVec3::X * if t > start { 0.5 } else { 0.0 },
+            )
         });
         let mut damper = Damper::builder(Slot::paper(), coarse())
             .mount(belt)

@@ -136,10 +136,7 @@ fn every_container_of_a_planar_cavity_is_held_to_the_plane() {
     struct Askew;
     impl Mount for Askew {
         fn motion(&self, _: f64, _: &[f64], _: &[f64], cavity: usize) -> Motion {
-            Motion {
-                position: DVec3::Z * cavity as f64,
-                velocity: DVec3::ZERO,
-            }
+            Motion::at(DVec3::Z * cavity as f64, DVec3::ZERO)
         }
     }
     let built = Damper::builder(Slot::paper(), law())

@@ -81,10 +81,10 @@ pub(crate) fn on_floor_by_crate(g: f64, steps: u32) -> Cycle {
     let amplitude = g * G / (omega * omega);
     let shake = move |t: f64| {
         let (sine, cosine) = (omega * t).sin_cos();
-        Motion {
-            position: DVec3::Y * amplitude * sine,
-            velocity: DVec3::Y * amplitude * omega * cosine,
-        }
+        Motion::at(
+            DVec3::Y * amplitude * sine,
+            DVec3::Y * amplitude * omega * cosine,
+        )
     };
     let ball = paper_particle();
     let law = RestitutionImpulse::new(acrylic(0.0, 0.0))
@@ -144,10 +144,10 @@ pub(crate) fn collect_by_crate(ratio: f64, steps: u32) -> f64 {
     let amplitude = 0.01;
     let shake = move |t: f64| {
         let (sine, cosine) = (omega * t).sin_cos();
-        Motion {
-            position: DVec3::X * amplitude * sine,
-            velocity: DVec3::X * amplitude * omega * cosine,
-        }
+        Motion::at(
+            DVec3::X * amplitude * sine,
+            DVec3::X * amplitude * omega * cosine,
+        )
     };
     let ball = paper_particle();
     let law = RestitutionImpulse::new(acrylic(0.0, 0.0))

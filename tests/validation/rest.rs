@@ -140,10 +140,7 @@ fn outside<L: ContactLaw>(law: L, dt: f64, acceleration: f64, speed: f64, steps:
             let left = 4.0 * quarter - phase;
             (0.5 * acceleration * left * left, -acceleration * left)
         };
-        Motion {
-            position: DVec3::Y * position,
-            velocity: DVec3::Y * velocity,
-        }
+        Motion::at(DVec3::Y * position, DVec3::Y * velocity)
     };
     let mut damper = Damper::builder(Slot::paper(), law)
         .mount(Prescribed(slam))

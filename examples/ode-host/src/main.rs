@@ -66,10 +66,7 @@ fn step(system: &Oscillator, y: [f64; 2], h: f64) -> Result<(f64, [f64; 2], u32)
 }
 
 fn motion(y: [f64; 2]) -> Motion {
-    Motion {
-        position: DVec3::Y * y[0],
-        velocity: DVec3::Y * y[1],
-    }
+    Motion::at(DVec3::Y * y[0], DVec3::Y * y[1])
 }
 
 /// The largest displacement over the last fifth of a swing with `grains` loose in a container that meet

@@ -46,10 +46,10 @@ fn hang(mass: f64) -> (PhysicsWorld, RigidBodyHandle) {
 /// How the body moves, as the damper wants it.
 fn motion(body: &RigidBody) -> Motion {
     let (place, velocity) = (body.translation(), body.linvel());
-    Motion {
-        position: DVec3::new(place.x, place.y, 0.0),
-        velocity: DVec3::new(velocity.x, velocity.y, 0.0),
-    }
+    Motion::at(
+        DVec3::new(place.x, place.y, 0.0),
+        DVec3::new(velocity.x, velocity.y, 0.0),
+    )
 }
 
 /// The largest height over the last fifth of a swing, with grains in the body or fixed to it.
