@@ -4,6 +4,12 @@ use glam::DVec3;
 
 use crate::material::MaterialId;
 
+mod partner;
+mod wall_load;
+
+pub use partner::Partner;
+pub use wall_load::WallLoad;
+
 /// One of the two bodies of a contact: a sphere, or a wall (infinite radius and mass).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]

@@ -1,7 +1,6 @@
 //! The damper: a bed of particles in a container on a mount, stepped in time.
 
-use std::fmt;
-
+use crate::contact::WallLoad;
 use glam::DVec3;
 
 use crate::cavity::{Cavity, clearance};
@@ -11,61 +10,27 @@ use crate::law::ContactLaw;
 use crate::mount::{Driven, Motion, Mount};
 use crate::observer::{Observable, Observer, StepReport};
 use crate::particle::Particle;
-
-mod block;
-mod builder;
-mod candidates;
-mod cause;
-mod chunk;
-mod clock;
-mod coefficients;
-mod contact_dynamics;
-mod detection;
-mod digest;
-mod drive;
-mod engine;
-mod error;
-mod particles;
-mod record;
-pub(crate) mod scene;
-mod setup;
-mod snapshot;
-mod sort;
-mod space;
-mod step;
-pub(crate) mod vectors;
-mod view;
-
-pub use builder::Builder;
-pub use cause::Cause;
-pub use error::{BuildError, StepBound, StepError};
-pub use record::{Recorded, Recording, ReplayError};
-pub use scene::WallLoad;
-pub use snapshot::{RestoreError, Snapshot};
-
-use clock::Clock;
-use contact_dynamics::ContactSolver;
+use crate::step_error::StepError;
 use engine::Engine;
-use setup::Setup;
+use impulses::ContactSolver;
+use neighbours::{Block, reserved_by};
+use snapshot::Setup;
+use state::Clock;
 use step::Step;
 
-/// What a particle touches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Partner {
-    /// Another particle, by number.
-    Particle(usize),
-    /// A wall of its cavity, by number.
-    Wall(u32),
-}
+mod builder;
+mod drive;
+mod engine;
+mod forces;
+mod impulses;
+mod neighbours;
+mod observable;
+mod snapshot;
+pub(crate) mod state;
+mod step;
 
-impl fmt::Display for Partner {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Particle(number) => write!(f, "particle {number}"),
-            Self::Wall(number) => write!(f, "wall {number}"),
-        }
-    }
-}
+pub use builder::{BuildError, Builder, StepBound};
+pub use snapshot::{Recorded, Recording, ReplayError, RestoreError, Snapshot};
 
 /// What the particles do to a container.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -114,7 +79,7 @@ where
     /// # Errors
     /// As [`step`](Self::step).
     pub fn step_watched<O: Observer>(&mut self, observer: &mut O) -> Result<(), StepError> {
-        self.forget_impulses();
+        self.reset_impulses();
         let done = self.advance(self.time_step, observer);
         // Particles that are found out of place may be so because walls are not where they say.
         if matches!(
@@ -130,7 +95,7 @@ where
     }
 
     /// Starts the sums of impulses on the containers afresh.
-    fn forget_impulses(&mut self) {
+    fn reset_impulses(&mut self) {
         let degrees = self.engine.mount.degrees();
         let state = &mut self.engine.mount_state;
         state.position[degrees..].fill(0.0);
@@ -138,7 +103,7 @@ where
     }
 
     fn advance<O: Observer>(&mut self, dt: f64, observer: &mut O) -> Result<(), StepError> {
-        self.engine.begin(dt);
+        self.engine.note_start(dt);
         self.engine.sort_in_time()?;
         self.engine.begin_step(dt, observer)?;
         let mut step = Step {
@@ -189,10 +154,10 @@ where
 
     /// The particles in the order of their numbers.
     pub fn particles(&self) -> impl ExactSizeIterator<Item = Particle> {
-        self.engine.particles.slot.iter().map(|slot| {
-            let slot = *slot as usize;
-            let cavity = self.engine.world.cavity_of(slot) as u32;
-            self.engine.particles.particle(slot, cavity)
+        self.engine.particles.index_of.iter().map(|index| {
+            let index = *index as usize;
+            let cavity = self.engine.model.cavity_of(index) as u32;
+            self.engine.particles.particle(index, cavity)
         })
     }
 
@@ -205,7 +170,7 @@ where
     /// The contact law.
     #[must_use]
     pub const fn law(&self) -> &L {
-        &self.engine.world.law
+        &self.engine.model.law
     }
 
     /// The detector of a cavity.
@@ -265,14 +230,19 @@ where
     /// How many particles have their centre outside their cavity.
     #[must_use]
     pub fn outside(&self) -> usize {
-        (0..self.engine.world.rooms.len())
-            .filter_map(|cavity| Some((&self.engine.world.rooms[cavity], self.container(cavity)?)))
-            .map(|(room, container)| {
-                let position = |slot| self.engine.particles.position.get(slot);
-                let outside = |slot: &usize| {
-                    clearance(&room.cavity, position(*slot) - container.position) < 0.0
+        (0..self.engine.model.compartments.len())
+            .filter_map(|cavity| {
+                Some((
+                    &self.engine.model.compartments[cavity],
+                    self.container(cavity)?,
+                ))
+            })
+            .map(|(compartment, container)| {
+                let position = |index| self.engine.particles.position.get(index);
+                let outside = |index: &usize| {
+                    clearance(&compartment.cavity, position(*index) - container.position) < 0.0
                 };
-                room.slots.clone().filter(outside).count()
+                compartment.indices.clone().filter(outside).count()
             })
             .sum()
     }
@@ -286,7 +256,7 @@ where
     /// Memory in bytes that particles, candidates and contacts have reserved.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
-        let blocks = self.engine.blocks.iter().map(block::Block::reserved_bytes);
+        let blocks = self.engine.blocks.iter().map(Block::reserved_bytes);
         self.engine.particles.reserved_bytes()
             + self.engine.scratch.reserved_bytes()
             + self
@@ -294,7 +264,7 @@ where
                 .solver
                 .as_ref()
                 .map_or(0, ContactSolver::reserved_bytes)
-            + self.engine.memories.sum(block::reserved_by)
+            + self.engine.history_pool.sum(reserved_by)
             + blocks.sum::<usize>()
     }
 

@@ -1,6 +1,6 @@
 //! Time integration.
 
-use crate::damper::StepError;
+use crate::step_error::StepError;
 
 mod runge_kutta;
 mod verlet;

@@ -124,14 +124,17 @@ mod particle;
 mod random;
 pub mod response;
 pub mod statistics;
+mod step_error;
 
 pub use glam;
 
 pub use cavity::{Cavity, Cuboid, Slot};
-pub use contact::{Bodies, Body, Contact, ContactForce, HeldForce, Onset, Stored};
+pub use contact::{
+    Bodies, Body, Contact, ContactForce, HeldForce, Onset, Partner, Stored, WallLoad,
+};
 pub use damper::{
-    BuildError, Builder, Cause, Damper, Partner, Reaction, Recorded, Recording, ReplayError,
-    RestoreError, Snapshot, StepBound, StepError, WallLoad,
+    BuildError, Builder, Damper, Reaction, Recorded, Recording, ReplayError, RestoreError,
+    Snapshot, StepBound,
 };
 pub use detector::{
     AllPairs, Bed, CellGrid, Counted, Detector, DetectorError, LinkedCells, Neighbourhood, Pairs,
@@ -153,3 +156,4 @@ pub use observer::{
 };
 pub use particle::Particle;
 pub use response::ResponseCurve;
+pub use step_error::{Cause, StepError};

@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 
-use crate::contact::{Contact, ContactForce, Stored};
-use crate::damper::Partner;
+use crate::contact::{Contact, ContactForce, Partner, Stored};
 
 mod energy;
 mod extremes;

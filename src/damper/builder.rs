@@ -7,7 +7,10 @@ use crate::mount::{Driven, Mount};
 use crate::particle::Particle;
 
 mod build;
+mod error;
 mod time_step;
+
+pub use error::{BuildError, StepBound};
 
 /// Overlaps up to this fraction of the smallest radius are taken for contacts of a settled bed.
 const INITIAL_OVERLAP: f64 = 0.05;

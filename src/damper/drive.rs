@@ -1,6 +1,6 @@
 //! Driving: a host program moves the container, and gets the reaction back.
 
-use super::{Damper, Reaction, StepError};
+use super::{Damper, Reaction};
 use crate::cavity::Cavity;
 use crate::detector::Detector;
 use crate::error::Bound;
@@ -8,6 +8,7 @@ use crate::integrator::Integrator;
 use crate::law::ContactLaw;
 use crate::mount::{Driven, Motion};
 use crate::observer::Observer;
+use crate::step_error::StepError;
 
 /// The most steps of one call.
 const MOST_STEPS: f64 = 1e9;
@@ -57,7 +58,7 @@ where
         let cut = self.clock.cut(interval, self.time_step);
         let duration = cut.steps as f64 * cut.step;
         let course = Driven::between(self.container(0).unwrap_or_default(), end, duration);
-        self.forget_impulses();
+        self.reset_impulses();
         for number in 1..=cut.steps {
             let next = course.at_part(number as f64 / cut.steps as f64);
             let from = self.container(0).unwrap_or_default();

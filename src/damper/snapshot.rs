@@ -3,18 +3,24 @@
 use glam::DVec3;
 
 use super::Damper;
-use super::candidates::Remembered;
-use super::clock::Clock;
-use super::digest::Digest;
-use super::engine::{Engine, MountState};
-use super::error::StepError;
-use super::scene::WallLoad;
-use super::setup::Setup;
+use super::engine::Engine;
+use super::neighbours::ContactRecord;
+use super::state::{Clock, MountState};
 use crate::cavity::Cavity;
+use crate::contact::WallLoad;
 use crate::detector::Detector;
 use crate::integrator::Integrator;
 use crate::law::{ContactLaw, ContactMemory, LawKind};
 use crate::mount::{Motion, Mount};
+use crate::step_error::StepError;
+
+mod digest;
+mod recording;
+mod setup;
+
+pub(crate) use digest::Digest;
+pub use recording::{Recorded, Recording, ReplayError};
+pub(crate) use setup::Setup;
 
 /// Number of the layout of [`Snapshot`], which changes with it.
 const VERSION: u32 = 1;
@@ -63,7 +69,7 @@ pub struct Snapshot<Memory> {
     containers: Vec<Motion>,
     wall_loads: Vec<WallLoad>,
     loads: Vec<DVec3>,
-    memory: [Vec<Remembered<Memory>>; 2],
+    memory: [Vec<ContactRecord<Memory>>; 2],
 }
 
 /// Why a snapshot cannot be restored into a damper.
@@ -198,7 +204,7 @@ impl<Memory> Snapshot<Memory> {
         D: Detector,
     {
         let count = engine.particles.len();
-        let cavities = engine.world.rooms.len();
+        let cavities = engine.model.compartments.len();
         let coordinates = engine.mount_state.position.len();
         RestoreError::count("particles", count, self.number.len())?;
         RestoreError::count("cavities", cavities, self.containers.len())?;
@@ -236,42 +242,42 @@ impl<Memory> Snapshot<Memory> {
         RestoreError::sound("loads", self.loads.iter().all(|load| load.is_finite()))?;
         self.check_numbers(engine)?;
         self.check_memory(count, engine.wall_loads.len())?;
-        if self.digest(&engine.world.law) != self.digest {
+        if self.digest(&engine.model.law) != self.digest {
             return Err(RestoreError::Changed);
         }
         Ok(())
     }
 
-    /// Refuses numbers that are not each particle's once, in a slot of its own cavity.
+    /// Refuses numbers that are not each particle's once, at an index of its own cavity.
     fn check_numbers<C, L, M, D>(&self, engine: &Engine<C, L, M, D>) -> Result<(), RestoreError>
     where
         L: ContactLaw,
     {
         let particles = &engine.particles;
         let mut seen = vec![false; particles.len()];
-        for (slot, (number, species)) in self.number.iter().zip(&self.species).enumerate() {
+        for (index, (number, species)) in self.number.iter().zip(&self.species).enumerate() {
             let number = *number as usize;
             let own = seen
                 .get_mut(number)
                 .is_some_and(|seen| !std::mem::replace(seen, true));
             RestoreError::sound("particle numbers", own)?;
-            let now = particles.slot[number] as usize;
-            let at_home = engine.world.cavity_of(slot) == engine.world.cavity_of(now);
+            let now = particles.index_of[number] as usize;
+            let at_home = engine.model.cavity_of(index) == engine.model.cavity_of(now);
             RestoreError::sound("particle numbers", at_home)?;
             RestoreError::sound("species", particles.species[now] == *species)?;
         }
         Ok(())
     }
 
-    /// Refuses memories of contacts that do not exist, or that are out of order.
+    /// Refuses what is remembered of contacts that do not exist, or that are out of order.
     fn check_memory(&self, particles: usize, walls: usize) -> Result<(), RestoreError> {
         let [pairs, others] = &self.memory;
-        let paired = |contact: &Remembered<Memory>| {
-            let number = |slot: u32| self.number.get(slot as usize);
+        let paired = |contact: &ContactRecord<Memory>| {
+            let number = |index: u32| self.number.get(index as usize);
             let (_, high) = contact.pair();
             (high as usize) < particles && number(contact.first) < number(contact.second)
         };
-        let walled = |contact: &Remembered<Memory>| {
+        let walled = |contact: &ContactRecord<Memory>| {
             (contact.first as usize) < particles && (contact.second as usize) < walls
         };
         let rising = pairs.is_sorted_by(|a, b| a.pair() < b.pair())
@@ -301,19 +307,24 @@ where
             clock: self.clock,
             since_sort: engine.since_sort,
             species: particles.species.clone(),
-            number: particles.number.clone(),
+            number: particles.id.clone(),
             position: particles.position.iter().collect(),
             velocity: particles.velocity.iter().collect(),
             spin: particles.spin.iter().collect(),
             acceleration: particles.acceleration.iter().collect(),
             angular_acceleration: particles.angular_acceleration.iter().collect(),
             mount: engine.mount_state.clone(),
-            containers: engine.world.rooms.iter().map(|room| room.motion).collect(),
+            containers: engine
+                .model
+                .compartments
+                .iter()
+                .map(|compartment| compartment.motion)
+                .collect(),
             wall_loads: engine.wall_loads.clone(),
             loads: engine.loads.clone(),
-            memory: engine.remembered(),
+            memory: engine.history(),
         };
-        snapshot.digest = snapshot.digest(&engine.world.law);
+        snapshot.digest = snapshot.digest(&engine.model.law);
         snapshot
     }
 
@@ -343,8 +354,13 @@ where
         engine.mount_state.clone_from(&snapshot.mount);
         engine.wall_loads.clone_from(&snapshot.wall_loads);
         engine.loads.clone_from(&snapshot.loads);
-        for (room, motion) in engine.world.rooms.iter_mut().zip(&snapshot.containers) {
-            room.motion = *motion;
+        for (compartment, motion) in engine
+            .model
+            .compartments
+            .iter_mut()
+            .zip(&snapshot.containers)
+        {
+            compartment.motion = *motion;
         }
         engine.mount.resume(&snapshot.containers);
         self.clock = snapshot.clock;

@@ -1,6 +1,6 @@
 use super::{Columns, Integrator, Stage, System};
-use crate::damper::StepError;
 use crate::parallel::{update, update_by_two};
+use crate::step_error::StepError;
 
 /// The classical Runge-Kutta method of fourth order (the paper's): four evaluations a step, the
 /// last of which serves as the next step's first.

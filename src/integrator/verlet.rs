@@ -1,6 +1,6 @@
 use super::{Columns, Integrator, Stage, System};
-use crate::damper::StepError;
 use crate::parallel::{update, update_by_two, update_two};
+use crate::step_error::StepError;
 
 /// Velocity Verlet (Swope et al. 1982, doi 10.1063/1.442716) with the velocity predicted for the
 /// evaluation (Groot & Warren 1997, doi 10.1063/1.474784, with full prediction): second order, one

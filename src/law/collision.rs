@@ -4,11 +4,10 @@ use glam::{DVec3, dvec3};
 
 use super::ForceLaw;
 use crate::contact::{Bodies, Body, Contact, ContactForce, Onset};
-use crate::damper::StepError;
-use crate::damper::scene::{at_surface, levers, resolve};
-use crate::damper::vectors::{Axes, Vectors};
+use crate::damper::state::{Axes, Vectors, force_and_torques, levers, surface_velocity};
 use crate::integrator::{Columns, Integrator, Motions, Stage, System};
 use crate::material::{Interaction, Material, Materials};
+use crate::step_error::StepError;
 
 pub(super) struct Collision<'l, L: ForceLaw> {
     law: &'l L,
@@ -102,16 +101,19 @@ impl<'l, L: ForceLaw> Collision<'l, L> {
     }
 
     fn contact(&self, elapsed: f64, correction: f64) -> Contact {
-        let (towards, reach) = if self.bodies.at_wall() {
+        let (towards, prediction_distance) = if self.bodies.at_wall() {
             (self.position.get(0).y * DVec3::Y, self.bodies.first.radius)
         } else {
-            let reach = self.bodies.first.radius + self.bodies.second.radius;
-            (self.position.get(0) - self.position.get(1), reach)
+            let prediction_distance = self.bodies.first.radius + self.bodies.second.radius;
+            (
+                self.position.get(0) - self.position.get(1),
+                prediction_distance,
+            )
         };
-        let (normal, overlap) = (towards.normalize(), reach - towards.length());
+        let (normal, overlap) = (towards.normalize(), prediction_distance - towards.length());
         let [own, other] = both(&self.velocity);
         let levers = self.levers(overlap);
-        let velocity = at_surface::<false>(normal, own - other, both(&self.spin), levers);
+        let velocity = surface_velocity::<false>(normal, own - other, both(&self.spin), levers);
         let mut contact = Contact::new(normal, overlap, velocity);
         contact.spins = both(&self.spin);
         contact.elapsed = elapsed;
@@ -205,7 +207,7 @@ impl<L: ForceLaw> System for Collision<'_, L> {
         if touching {
             let (answer, memory) = self.answer(&contact, onset);
             let levers = self.levers(contact.overlap);
-            let (push, torques) = resolve::<false, true>(contact.normal, levers, &answer);
+            let (push, torques) = force_and_torques::<false, true>(contact.normal, levers, &answer);
             let forces = [push, -push];
             for (n, (force, torque)) in forces.into_iter().zip(torques).enumerate() {
                 if n < self.position.len() {

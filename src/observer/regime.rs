@@ -1,7 +1,7 @@
 use glam::DVec3;
 
 use super::{ContactEvent, Observer, StepReport};
-use crate::damper::Partner;
+use crate::contact::Partner;
 
 /// The state that a bed is in, as means over the time watched.
 ///

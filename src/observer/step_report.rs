@@ -2,7 +2,7 @@ use std::fmt;
 
 use glam::DVec3;
 
-use crate::damper::WallLoad;
+use crate::contact::WallLoad;
 use crate::mount::{Motion, MountEnergy};
 use crate::particle::Particle;
 

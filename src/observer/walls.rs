@@ -1,7 +1,7 @@
 use glam::DVec3;
 
 use super::{ContactEvent, Observer, StepReport};
-use crate::damper::Partner;
+use crate::contact::Partner;
 
 /// What happened at one wall.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -1,7 +1,8 @@
 use super::Point;
-use crate::damper::{BuildError, StepError};
+use crate::damper::BuildError;
 use crate::error::ValueError;
 use crate::filling::FillingError;
+use crate::step_error::StepError;
 
 /// Why a response was not measured.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -2,20 +2,16 @@
 
 use glam::{DMat3, DVec3};
 
-use super::Builder;
+use super::{BuildError, Builder};
 use crate::cavity::Cavity;
-use crate::contact::Body;
+use crate::contact::{Body, WallLoad};
 use crate::damper::Damper;
-use crate::damper::block::{BLOCK, memories};
-use crate::damper::cause::Begin;
-use crate::damper::clock::Clock;
-use crate::damper::coefficients::Coefficients;
-use crate::damper::contact_dynamics::ContactSolver;
-use crate::damper::engine::{Engine, MountState, Scratch};
-use crate::damper::error::BuildError;
-use crate::damper::particles::Particles;
-use crate::damper::scene::{Room, WallLoad, World};
-use crate::damper::setup::Setup;
+use crate::damper::engine::Engine;
+use crate::damper::impulses::ContactSolver;
+use crate::damper::neighbours::{BLOCK, Scratch, history_buffers};
+use crate::damper::snapshot::Setup;
+use crate::damper::state::{Clock, Coefficients, Compartment, Model, MountState, Particles};
+use crate::damper::step::StepStart;
 use crate::detector::Detector;
 use crate::error::{Bound, ValueError};
 use crate::integrator::{Integrator, Stage};
@@ -54,14 +50,14 @@ where
         L::Kind::accept(CheckLaw(&self.law))?;
         let mount_state = MountState::new(&self.mount, self.cavities.len());
         let smallest = particles.smallest_radius;
-        let rooms = self.rooms(smallest, &mount_state);
-        let yielding = rooms.iter().map(Room::greatest_inverse_mass);
+        let compartments = self.compartments(smallest, &mount_state);
+        let yielding = compartments.iter().map(Compartment::greatest_inverse_mass);
         let wall = Body {
             mass: 1.0 / yielding.fold(0.0, f64::max),
             ..Body::wall(self.wall_material)
         };
         let time_step = self.choose_time_step(&coefficients, wall, &particles)?;
-        let walls = Engine::<C, L, M, D>::wall_count(&rooms);
+        let walls = Engine::<C, L, M, D>::wall_count(&compartments);
         let mut engine = Engine {
             scratch: Scratch::new(&particles, mount_state.acceleration.len()),
             mount_state,
@@ -69,23 +65,23 @@ where
             mount: self.mount,
             gravity: self.gravity,
             blocks: Engine::<C, L, M, D>::make_blocks(particles.len(), walls),
-            memories: Pool::new(memories(particles.len())),
+            history_pool: Pool::new(history_buffers(particles.len())),
             solver: L::Kind::HELD.then(|| ContactSolver::new(&particles.position, planar)),
             particles,
             wall_loads: vec![WallLoad::default(); walls],
-            loads: vec![DVec3::ZERO; rooms.len()],
-            world: World {
+            loads: vec![DVec3::ZERO; compartments.len()],
+            model: Model {
                 law: self.law,
                 coefficients,
-                room_of_wall: room_of_wall(&rooms),
-                rooms,
-                reach: 0.0,
-                listed: 0.0,
+                compartment_of_wall: compartment_of_wall(&compartments),
+                compartments,
+                prediction_distance: 0.0,
+                listed_distance: 0.0,
                 stamp: 0,
                 time_step,
             },
             time: self.start_time,
-            begin: Begin::default(),
+            step_start: StepStart::default(),
             detections: 0,
             since_sort: 0,
             overlap_limit: self.overlap_limit * smallest,
@@ -215,16 +211,16 @@ where
         numbers
     }
 
-    fn rooms(&mut self, smallest_radius: f64, state: &MountState) -> Vec<Room<C>> {
+    fn compartments(&mut self, smallest_radius: f64, state: &MountState) -> Vec<Compartment<C>> {
         let count = self.cavities.len();
         let degrees = self.mount.degrees();
         let (x, v) = (&state.position[..degrees], &state.velocity[..degrees]);
         let responses = mount::responses(&self.mount, self.start_time, x, v, count);
-        let (mut slot, mut wall) = (0, 0);
-        let mut rooms = Vec::new();
+        let (mut index, mut wall) = (0, 0);
+        let mut compartments = Vec::new();
         for (number, cavity) in std::mem::take(&mut self.cavities).into_iter().enumerate() {
             let own = |particle: &&Particle| particle.cavity as usize == number;
-            let end = slot + self.particles.iter().filter(own).count();
+            let end = index + self.particles.iter().filter(own).count();
             let walls = cavity.walls();
             let margin = if smallest_radius.is_finite() {
                 let skin = self.detectors[number].skin(smallest_radius);
@@ -232,9 +228,9 @@ where
             } else {
                 0.0
             };
-            rooms.push(Room {
+            compartments.push(Compartment {
                 cavity,
-                slots: slot..end,
+                indices: index..end,
                 first_wall: wall,
                 motion: Motion::default(),
                 inverse_mass: responses
@@ -243,10 +239,10 @@ where
                     .unwrap_or(DMat3::ZERO),
                 margin,
             });
-            slot = end;
+            index = end;
             wall += walls;
         }
-        rooms
+        compartments
     }
 }
 
@@ -271,11 +267,11 @@ impl<L: ContactLaw> LawVisitor<L> for CheckLaw<'_, L> {
     }
 }
 
-/// Number of the room of each wall.
-fn room_of_wall<C: Cavity>(rooms: &[Room<C>]) -> Vec<u32> {
-    let rooms = rooms.iter().zip(0..);
-    rooms
-        .flat_map(|(room, number)| (0..room.cavity.walls()).map(move |_| number))
+/// Number of the compartment of each wall.
+fn compartment_of_wall<C: Cavity>(compartments: &[Compartment<C>]) -> Vec<u32> {
+    let compartments = compartments.iter().zip(0..);
+    compartments
+        .flat_map(|(compartment, number)| (0..compartment.cavity.walls()).map(move |_| number))
         .collect()
 }
 
@@ -312,10 +308,10 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     fn start(&mut self, allowed: f64) -> Result<(), BuildError> {
         self.check_mount()?;
         self.place_containers(self.time)?;
-        for room in &self.world.rooms {
-            for slot in room.slots.clone() {
-                let position = self.particles.position.get(slot) + room.motion.position;
-                self.particles.position.set(slot, position);
+        for compartment in &self.model.compartments {
+            for index in compartment.indices.clone() {
+                let position = self.particles.position.get(index) + compartment.motion.position;
+                self.particles.position.set(index, position);
             }
         }
         self.prepare_detectors()?;
@@ -333,9 +329,12 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 degrees: self.mount.degrees(),
             });
         }
-        let cavities = self.world.rooms.len();
+        let cavities = self.model.compartments.len();
         for (number, response) in responses.iter().enumerate() {
-            if self.world.rooms[number % cavities].cavity.is_planar() {
+            if self.model.compartments[number % cavities]
+                .cavity
+                .is_planar()
+            {
                 // A mount that leaves the plane shows it in how it yields.
                 in_plane("axis of the mount", response.z_axis + response.row(2))?;
             }
@@ -344,24 +343,24 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     }
 
     fn check_initial_overlaps(&self, limit: f64) -> Result<(), BuildError> {
-        let scene = self.world.scene(&self.particles, 0.0);
+        let view = self.model.view(&self.particles, 0.0);
         for block in &self.blocks {
-            let mut pairs = block.overlapping_pairs(&scene);
+            let mut pairs = block.overlapping_pairs(&view);
             if let Some((overlap, first, second)) = pairs.find(|pair| pair.0 > limit) {
                 return Err(BuildError::InitialOverlap {
-                    first: self.particles.number[first] as usize,
-                    second: self.particles.number[second] as usize,
+                    first: self.particles.id[first] as usize,
+                    second: self.particles.id[second] as usize,
                     overlap,
                     limit,
                 });
             }
-            let mut walls = block.overlapping_walls(&scene);
-            if let Some((overlap, slot, wall)) = walls.find(|wall| wall.0 > limit) {
-                let room = scene.room_of_wall(wall);
+            let mut walls = block.overlapping_walls(&view);
+            if let Some((overlap, index, wall)) = walls.find(|wall| wall.0 > limit) {
+                let compartment = view.compartment_of_wall(wall);
                 return Err(BuildError::OutsideCavity {
-                    particle: self.particles.number[slot] as usize,
-                    position: self.particles.position.get(slot) - room.motion.position,
-                    wall: wall - room.first_wall,
+                    particle: self.particles.id[index] as usize,
+                    position: self.particles.position.get(index) - compartment.motion.position,
+                    wall: wall - compartment.first_wall,
                     overlap,
                     limit,
                 });

@@ -1,10 +1,8 @@
 //! The longest step that every part bears.
 
-use super::Builder;
+use super::{BuildError, Builder, StepBound};
 use crate::contact::Body;
-use crate::damper::coefficients::Coefficients;
-use crate::damper::error::{BuildError, StepBound};
-use crate::damper::particles::Particles;
+use crate::damper::state::{Coefficients, Particles};
 use crate::error::Bound;
 use crate::law::{ContactLaw, LawError};
 use crate::mount::Mount;
@@ -55,8 +53,8 @@ impl<C, L: ContactLaw, M: Mount, D, I> Builder<C, L, M, D, I> {
     ) -> Result<Limit, LawError> {
         let (limit, kinds) = coefficients.time_step_limit(&self.law, wall)?;
         let example = |kind: u32| {
-            let mut slots = particles.species.iter().zip(&particles.number);
-            slots.find_map(|(species, number)| (*species == kind).then_some(*number as usize))
+            let mut indices = particles.species.iter().zip(&particles.id);
+            indices.find_map(|(species, number)| (*species == kind).then_some(*number as usize))
         };
         let bound = kinds.and_then(|(kind, other)| {
             let particle = example(kind)?;

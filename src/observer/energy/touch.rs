@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::damper::Partner;
+use crate::contact::Partner;
 use crate::observer::{ContactEvent, StepReport};
 use crate::particle::Particle;
 

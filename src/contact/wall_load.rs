@@ -1,0 +1,26 @@
+use glam::DVec3;
+
+/// Force and torque of the particles on one wall.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct WallLoad {
+    /// Force on the wall in N, fixed frame.
+    pub force: DVec3,
+    /// Torque on the wall about the container's origin, in N m.
+    pub torque: DVec3,
+}
+
+impl WallLoad {
+    /// Adds the reaction to `force` on a particle, with the couple `couple` besides, at `arm` from
+    /// the container's origin.
+    #[inline]
+    pub(crate) fn react(&mut self, force: DVec3, couple: DVec3, arm: DVec3) {
+        self.force -= force;
+        self.torque -= arm.cross(force) + couple;
+    }
+
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.force += other.force;
+        self.torque += other.torque;
+    }
+}

@@ -1,0 +1,413 @@
+//! Contacts side by side: what a law is asked of several of them, in columns.
+//!
+//! The law is asked in a loop over columns of numbers, without a branch of the engine's own: so the
+//! compiler can answer as many contacts at a time as the processor's vectors hold. The bits are those
+//! of one at a time.
+
+// Small functions of the innermost loop: the compiler must see the loop whole.
+#![allow(clippy::inline_always)]
+
+use crate::damper::state::StepTime;
+use glam::DVec3;
+
+use crate::cavity::Cavity;
+use crate::contact::{Contact, ContactForce, Onset};
+use crate::damper::state::{
+    StateView, axial, force_and_torques, levers, normal_and_overlap, polar, surface_velocity,
+};
+use crate::law::{ContactLaw, ContactMemory, ForceLaw, at_least};
+
+/// How many contacts are side by side at the most.
+pub(crate) const BATCH_SIZE: usize = 32;
+
+type Column = [f64; BATCH_SIZE];
+
+/// A column of vectors.
+#[derive(Debug, Clone)]
+struct Lanes {
+    x: Column,
+    y: Column,
+    z: Column,
+}
+
+impl Lanes {
+    const ZERO: Self = Self {
+        x: [0.0; BATCH_SIZE],
+        y: [0.0; BATCH_SIZE],
+        z: [0.0; BATCH_SIZE],
+    };
+
+    #[inline(always)]
+    const fn set(&mut self, n: usize, vector: DVec3) {
+        self.x[n] = vector.x;
+        self.y[n] = vector.y;
+        self.z[n] = vector.z;
+    }
+
+    #[inline(always)]
+    const fn get(&self, n: usize) -> DVec3 {
+        DVec3::new(self.x[n], self.y[n], self.z[n])
+    }
+
+    /// Sets a velocity, force or direction. If `PLANAR`, its z stays zero.
+    #[inline(always)]
+    const fn set_polar<const PLANAR: bool>(&mut self, n: usize, vector: DVec3) {
+        self.x[n] = vector.x;
+        self.y[n] = vector.y;
+        if !PLANAR {
+            self.z[n] = vector.z;
+        }
+    }
+
+    /// Sets a spin or torque. If `PLANAR`, its x and y stay zero.
+    #[inline(always)]
+    const fn set_axial<const PLANAR: bool>(&mut self, n: usize, vector: DVec3) {
+        if PLANAR {
+            self.z[n] = vector.z;
+        } else {
+            self.set(n, vector);
+        }
+    }
+}
+
+/// Up to [`BATCH_SIZE`] contacts, all of pairs or all with walls, and what the law answers. With `PLANAR`
+/// all of them lie in the plane z = 0.
+#[derive(Debug, Clone)]
+pub(crate) struct Batch<L: ContactLaw> {
+    count: usize,
+    /// From the second body to the first: until their kinematics are [worked out](Self::work_out_kinematics), of two
+    /// spheres as far as their centres are apart (m); then the normal.
+    towards: Lanes,
+    /// Velocity of the first centre relative to the second body's, and then of the surfaces, m/s.
+    velocity: Lanes,
+    spins: [Lanes; 2],
+    /// Zero for a wall.
+    radii: [Column; 2],
+    overlap: Column,
+    /// Rate of overlap, m/s.
+    approach: Column,
+    /// Of walls: velocity that they gain along the normal per unit impulse, 1/kg.
+    wall_inverse_mass: Column,
+    kinds: Vec<L::Coefficients>,
+    memory: [ContactMemory<L>; BATCH_SIZE],
+    advanced: [ContactMemory<L>; BATCH_SIZE],
+    push: Lanes,
+    torques: [Lanes; 2],
+}
+
+impl<L: ContactLaw> Default for Batch<L> {
+    fn default() -> Self {
+        Self {
+            count: 0,
+            towards: Lanes::ZERO,
+            velocity: Lanes::ZERO,
+            spins: [Lanes::ZERO; 2],
+            radii: [[0.0; BATCH_SIZE]; 2],
+            overlap: [0.0; BATCH_SIZE],
+            approach: [0.0; BATCH_SIZE],
+            wall_inverse_mass: [0.0; BATCH_SIZE],
+            kinds: Vec::with_capacity(BATCH_SIZE),
+            memory: [ContactMemory::<L>::default(); BATCH_SIZE],
+            advanced: [ContactMemory::<L>::default(); BATCH_SIZE],
+            push: Lanes::ZERO,
+            torques: [Lanes::ZERO; 2],
+        }
+    }
+}
+
+impl<L: ForceLaw> Batch<L> {
+    /// Makes ready for pairs, whose bodies may all be of `only` one radius (m).
+    pub(crate) fn begin_pairs(&mut self, only: Option<f64>) {
+        if let Some(radius) = only {
+            self.radii = [[radius; BATCH_SIZE]; 2];
+        }
+    }
+
+    /// Takes over the pairs of `bodies`, at most [`BATCH_SIZE`] of them.
+    #[inline(always)]
+    pub(crate) fn gather_pairs<C: Cavity, const PLANAR: bool>(
+        &mut self,
+        view: &StateView<'_, C, L>,
+        bodies: &[[u32; 2]],
+    ) {
+        let radius = view.radius;
+        // Columns of one length, so that one comparison stands for all their bounds.
+        let position = view.position.polar::<PLANAR>(radius.len());
+        let velocity = view.velocity.polar::<PLANAR>(radius.len());
+        let spin = view.spin.axial::<PLANAR>(radius.len());
+        self.count = bodies.len().min(BATCH_SIZE);
+        for (n, [i, j]) in bodies.iter().take(BATCH_SIZE).enumerate() {
+            let (i, j) = (*i as usize, *j as usize);
+            let towards = position.get(i) - position.get(j);
+            let velocity = velocity.get(i) - velocity.get(j);
+            self.towards.set_polar::<PLANAR>(n, towards);
+            self.velocity.set_polar::<PLANAR>(n, velocity);
+            self.spins[0].set_axial::<PLANAR>(n, spin.get(i));
+            self.spins[1].set_axial::<PLANAR>(n, spin.get(j));
+        }
+        if view.coefficients.only_radius().is_none() {
+            for (n, [i, j]) in bodies.iter().take(BATCH_SIZE).enumerate() {
+                self.radii[0][n] = radius[*i as usize];
+                self.radii[1][n] = radius[*j as usize];
+            }
+        }
+    }
+
+    /// Takes over the contacts with walls of `bodies`, at most [`BATCH_SIZE`] of them.
+    #[inline(always)]
+    pub(crate) fn gather_walls<C: Cavity>(
+        &mut self,
+        view: &StateView<'_, C, L>,
+        bodies: &[[u32; 2]],
+    ) {
+        self.count = bodies.len().min(BATCH_SIZE);
+        for (n, [index, wall]) in bodies[..self.count].iter().enumerate() {
+            let grain = view.grain(*index as usize);
+            let point = view.wall_point(*wall, grain.position);
+            let compartment = view.compartment_of_wall(*wall);
+            self.towards.set(n, point.normal);
+            self.wall_inverse_mass[n] = compartment.inverse_mass_along(point.normal);
+            let velocity = grain.velocity - compartment.motion.velocity;
+            self.velocity.set(n, velocity);
+            self.spins[0].set(n, grain.spin);
+            self.spins[1].set(n, DVec3::ZERO);
+            self.radii[0][n] = grain.radius;
+            self.radii[1][n] = 0.0;
+            self.overlap[n] = grain.radius - point.distance;
+        }
+    }
+
+    /// Where it is put what the contacts remember.
+    #[inline(always)]
+    pub(crate) const fn memory_mut(&mut self) -> &mut [ContactMemory<L>; BATCH_SIZE] {
+        &mut self.memory
+    }
+
+    /// Works out where and how fast the bodies meet. Apart from the law, so that the roots and
+    /// quotients of more contacts are under way at a time.
+    #[inline(never)]
+    fn work_out_kinematics<const PAIRS: bool, const PLANAR: bool>(&mut self) {
+        for n in 0..self.count.min(BATCH_SIZE) {
+            let radii = self.radii.each_ref().map(|radii| radii[n]);
+            let towards = polar::<PLANAR>(self.towards.get(n));
+            let normal = if PAIRS {
+                let (normal, overlap) = normal_and_overlap::<PLANAR>(towards, radii);
+                self.overlap[n] = overlap;
+                self.towards.set_polar::<PLANAR>(n, normal);
+                normal
+            } else {
+                towards
+            };
+            let spins = self
+                .spins
+                .each_ref()
+                .map(|spins| axial::<PLANAR>(spins.get(n)));
+            let velocity = polar::<PLANAR>(self.velocity.get(n));
+            let levers = self.levers::<PAIRS>(n);
+            let velocity = surface_velocity::<PLANAR>(normal, velocity, spins, levers);
+            self.velocity.set_polar::<PLANAR>(n, velocity);
+            self.approach[n] = -velocity.dot(normal);
+        }
+    }
+
+    /// Levers in m at which friction turns the bodies of a contact. A wall gives way nowhere, and turns
+    /// the sphere by its radius.
+    #[inline(always)]
+    fn levers<const PAIRS: bool>(&self, n: usize) -> [f64; 2] {
+        let radii = self.radii.each_ref().map(|radii| radii[n]);
+        if PAIRS {
+            levers(radii, self.overlap[n])
+        } else {
+            radii
+        }
+    }
+
+    /// A contact at a time of the step.
+    #[inline(always)]
+    pub(crate) fn contact<const PAIRS: bool, const PLANAR: bool>(
+        &self,
+        n: usize,
+        step_time: StepTime,
+    ) -> Contact {
+        let spins = self
+            .spins
+            .each_ref()
+            .map(|spins| axial::<PLANAR>(spins.get(n)));
+        let normal = polar::<PLANAR>(self.towards.get(n));
+        let velocity = polar::<PLANAR>(self.velocity.get(n));
+        Contact {
+            spins,
+            elapsed: step_time.elapsed,
+            correction: step_time.correction,
+            wall_inverse_mass: if PAIRS {
+                0.0
+            } else {
+                self.wall_inverse_mass[n]
+            },
+            ..Contact::new(normal, self.overlap[n], velocity)
+        }
+    }
+
+    /// Has `law` answer the contacts, with the `only` coefficients that there are, or else with those
+    /// of each contact in turn. With `END` their memory advances.
+    #[inline(always)]
+    pub(crate) fn evaluate<const PAIRS: bool, const END: bool, const PLANAR: bool>(
+        &mut self,
+        law: &L,
+        only: Option<&L::Coefficients>,
+        kinds: impl Iterator<Item = L::Coefficients>,
+        step_time: StepTime,
+    ) {
+        self.work_out_kinematics::<PAIRS, PLANAR>();
+        if let Some(only) = only {
+            if law.has_couple(only) {
+                self.evaluate_alike::<PAIRS, END, PLANAR, true>(law, only, step_time);
+            } else {
+                self.evaluate_alike::<PAIRS, END, PLANAR, false>(law, only, step_time);
+            }
+        } else {
+            self.kinds.clear();
+            self.kinds.extend(kinds);
+            self.evaluate_mixed::<PAIRS, END, PLANAR>(law, step_time);
+        }
+    }
+
+    #[inline(never)]
+    fn evaluate_alike<
+        const PAIRS: bool,
+        const END: bool,
+        const PLANAR: bool,
+        const COUPLE: bool,
+    >(
+        &mut self,
+        law: &L,
+        kind: &L::Coefficients,
+        step_time: StepTime,
+    ) {
+        let kind = *kind;
+        for n in 0..self.count.min(BATCH_SIZE) {
+            self.evaluate_one::<PAIRS, END, PLANAR, COUPLE>(law, &kind, n, step_time);
+        }
+    }
+
+    #[inline(never)]
+    fn evaluate_mixed<const PAIRS: bool, const END: bool, const PLANAR: bool>(
+        &mut self,
+        law: &L,
+        step_time: StepTime,
+    ) {
+        for n in 0..self.kinds.len().min(BATCH_SIZE) {
+            let kind = self.kinds[n];
+            self.evaluate_one::<PAIRS, END, PLANAR, true>(law, &kind, n, step_time);
+        }
+    }
+
+    #[inline(always)]
+    fn evaluate_one<const PAIRS: bool, const END: bool, const PLANAR: bool, const COUPLE: bool>(
+        &mut self,
+        law: &L,
+        kind: &L::Coefficients,
+        n: usize,
+        step_time: StepTime,
+    ) {
+        let contact = self.contact::<PAIRS, PLANAR>(n, step_time);
+        let memory = self.memory[n];
+        let answer = law.force(kind, &contact, &memory);
+        if END {
+            self.advanced[n] = law.advance(kind, &contact, &memory);
+        }
+        self.store::<PAIRS, PLANAR, COUPLE>(n, contact.normal, &answer);
+    }
+
+    /// Stores what an answer does to the two bodies.
+    #[inline(always)]
+    fn store<const PAIRS: bool, const PLANAR: bool, const COUPLE: bool>(
+        &mut self,
+        n: usize,
+        normal: DVec3,
+        answer: &ContactForce,
+    ) {
+        let levers = self.levers::<PAIRS>(n);
+        let (push, [first, second]) = force_and_torques::<PLANAR, COUPLE>(normal, levers, answer);
+        self.push.set_polar::<PLANAR>(n, push);
+        self.torques[0].set_axial::<PLANAR>(n, first);
+        self.torques[1].set_axial::<PLANAR>(n, second);
+    }
+
+    /// Has `law` answer once more where bodies may have met or may part within the step.
+    /// `acceleration` is that of a contact's first centre relative to its second body, as it was
+    /// evaluated last (m/s^2).
+    pub(crate) fn correct_onsets<const PAIRS: bool, const END: bool>(
+        &mut self,
+        law: &L,
+        only: Option<&L::Coefficients>,
+        step_time: StepTime,
+        acceleration: impl Fn(usize) -> DVec3,
+    ) {
+        for n in 0..self.count.min(BATCH_SIZE) {
+            if Onset::is_near(self.overlap[n], self.approach[n], step_time.time_step) {
+                let kind = only.copied().unwrap_or_else(|| self.kinds[n]);
+                let (contact, answer, memory) =
+                    self.evaluate_contact::<PAIRS>(law, &kind, n, step_time, acceleration(n));
+                self.store::<PAIRS, false, true>(n, contact.normal, &answer);
+                if END {
+                    self.advanced[n] = memory;
+                }
+            }
+        }
+    }
+
+    /// A contact, the answer of the `law` with coefficients `kind`, and what the contact remembers
+    /// at the end of the step.
+    pub(crate) fn evaluate_contact<const PAIRS: bool>(
+        &self,
+        law: &L,
+        kind: &L::Coefficients,
+        n: usize,
+        step_time: StepTime,
+        acceleration: DVec3,
+    ) -> (Contact, ContactForce, ContactMemory<L>) {
+        let time_step = step_time.time_step;
+        let (contact, memory) = (self.contact::<PAIRS, false>(n, step_time), &self.memory[n]);
+        let (overlap, approach) = (contact.overlap, contact.approach_speed());
+        if law.corrects_onset() && Onset::is_near(overlap, approach, time_step) {
+            let onset = Onset::new(time_step, acceleration.dot(contact.normal));
+            let (answer, memory) = law.at_onset(kind, &contact, memory, &onset);
+            return (contact, answer, memory);
+        }
+        let answer = law.force(kind, &contact, memory);
+        (contact, answer, law.advance(kind, &contact, memory))
+    }
+
+    /// Force on the first body of a contact, in N; the second feels the opposite.
+    #[inline(always)]
+    pub(crate) const fn push(&self, n: usize) -> DVec3 {
+        self.push.get(n)
+    }
+
+    /// Torques on the two bodies of a contact, in N m.
+    #[inline(always)]
+    pub(crate) const fn torques(&self, n: usize) -> [DVec3; 2] {
+        [self.torques[0].get(n), self.torques[1].get(n)]
+    }
+
+    /// What the contacts remember at the end of the step.
+    #[inline(always)]
+    pub(crate) const fn advanced(&self) -> &[ContactMemory<L>; BATCH_SIZE] {
+        &self.advanced
+    }
+
+    /// The overlap of a contact in m.
+    #[inline(always)]
+    pub(crate) const fn overlap(&self, n: usize) -> f64 {
+        self.overlap[n]
+    }
+
+    /// The largest overlap in m.
+    #[inline(always)]
+    pub(crate) fn largest_overlap(&self) -> f64 {
+        let overlaps = &self.overlap[..self.count.min(BATCH_SIZE)];
+        let deeper = |deepest, overlap: &f64| at_least(*overlap, deepest);
+        overlaps.iter().fold(0.0, deeper)
+    }
+}

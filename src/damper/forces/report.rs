@@ -1,0 +1,74 @@
+//! What observers are told of contacts that were evaluated.
+
+use std::ops::Range;
+
+use super::batch::Batch;
+use super::evaluate::acceleration_of_pair;
+use crate::cavity::Cavity;
+use crate::contact::Partner;
+use crate::damper::neighbours::NeighbourList;
+use crate::damper::state::StateView;
+use crate::law::ForceLaw;
+use crate::observer::{ContactEvent, Observer};
+
+/// Tells `observer` of the pairs in `batch`, which are in `list`.
+#[cold]
+pub(super) fn report_pairs<C: Cavity, L: ForceLaw>(
+    view: &StateView<'_, C, L>,
+    list: &NeighbourList<L>,
+    batch: &Batch<L>,
+    run: Range<usize>,
+    observer: &mut impl Observer,
+) {
+    for (n, number) in run.enumerate() {
+        let bodies = list.contacts.bodies()[number];
+        let candidate = list.contacts.candidates()[number];
+        let (index, other) = (bodies[0] as usize, bodies[1] as usize);
+        let prepared = list.prepared(candidate);
+        let (first, second) = (view.species[index], view.species[other]);
+        let kind = view.coefficients.pair(first, second, prepared);
+        let acceleration = acceleration_of_pair(view, bodies);
+        let (contact, force, memory) =
+            batch.evaluate_contact::<true>(view.law, &kind, n, view.step_time, acceleration);
+        observer.contact(&ContactEvent {
+            particle: view.id[index] as usize,
+            partner: Partner::Particle(view.id[other] as usize),
+            cavity: view
+                .compartments
+                .partition_point(|compartment| compartment.indices.end <= index),
+            contact,
+            force,
+            stored: view.law.stored(&kind, &contact, &memory),
+            working_velocity: contact.velocity,
+            working_spin: contact.spins[0] - contact.spins[1],
+        });
+    }
+}
+
+/// Tells `observer` of the contacts with walls in `batch`.
+#[cold]
+pub(super) fn report_walls<C: Cavity, L: ForceLaw>(
+    view: &StateView<'_, C, L>,
+    list: &NeighbourList<L>,
+    batch: &Batch<L>,
+    run: Range<usize>,
+    observer: &mut impl Observer,
+) {
+    for (n, [index, wall]) in list.contacts.bodies()[run].iter().enumerate() {
+        let (index, wall) = (*index as usize, *wall);
+        let kind = view.coefficients.wall(view.species[index]);
+        let acceleration = view.acceleration.get(index);
+        let (contact, force, memory) =
+            batch.evaluate_contact::<false>(view.law, kind, n, view.step_time, acceleration);
+        observer.contact(&ContactEvent {
+            particle: view.id[index] as usize,
+            partner: Partner::Wall(wall - view.compartment_of_wall(wall).first_wall),
+            cavity: view.cavity_of_wall(wall),
+            contact,
+            force,
+            stored: view.law.stored(kind, &contact, &memory),
+            working_velocity: contact.velocity,
+            working_spin: contact.spins[0],
+        });
+    }
+}

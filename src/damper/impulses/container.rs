@@ -1,0 +1,143 @@
+//! Containers while impulses are worked out: how they move and yield.
+
+use glam::{DMat3, DVec3};
+
+use crate::cavity::Cavity;
+use crate::damper::engine::Engine;
+use crate::damper::state::Space;
+use crate::detector::Detector;
+use crate::law::ContactLaw;
+use crate::mount::Mount;
+
+/// The container of a cavity.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Container<S: Space> {
+    /// Velocity after the impulses so far, m/s.
+    pub(super) velocity: S::Vector,
+    /// Velocity that the step leaves it without impulses, m/s.
+    pub(super) free: S::Vector,
+    /// Velocity that a free particle gains on it over the step, m/s.
+    pub(super) velocity_gain: DVec3,
+    /// The same as a speed.
+    pub(super) speed_gain: f64,
+    /// Where it was when contacts were looked for, m.
+    pub(super) origin: DVec3,
+}
+
+/// All containers, and what impulses do to them.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Containers<S: Space> {
+    pub(super) each: Vec<Container<S>>,
+    /// Velocity of the second of two containers per unit impulse on the first, 1/kg, row by row; empty if
+    /// none yields.
+    responses: Vec<DMat3>,
+    /// Scratch: the mount's coordinates and their rates at the middle of the step, rates at its end,
+    /// accelerations, and loads.
+    middle: [Vec<f64>; 2],
+    rates: Vec<f64>,
+    accelerations: Vec<f64>,
+    loads: Vec<DVec3>,
+}
+
+impl<S: Space> Containers<S> {
+    /// Inverse effective mass of the container of a cavity, 1/kg: its velocity per unit impulse on it.
+    pub(super) fn inverse_mass(&self, cavity: usize) -> Option<&DMat3> {
+        self.responses.get(cavity * (self.each.len() + 1))
+    }
+
+    /// Whether impulses move any container.
+    pub(super) fn yield_at_all(&self) -> bool {
+        !self.responses.is_empty()
+    }
+
+    /// Takes an impulse (N s) on the container of a cavity.
+    #[inline(always)]
+    pub(super) fn add(&mut self, cavity: usize, impulse: S::Vector) {
+        let row = cavity * self.each.len();
+        for (container, response) in self
+            .each
+            .iter_mut()
+            .zip(self.responses.get(row..).unwrap_or_default())
+        {
+            container.velocity += S::transform(response, impulse);
+        }
+    }
+}
+
+impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
+    /// The containers' free velocities over a step of `time_step` (s), and how they yield.
+    pub(super) fn free_containers<S: Space>(&self, time_step: f64, containers: &mut Containers<S>) {
+        let state = &self.mount_state;
+        let degrees = self.mount.degrees();
+        let (position, velocity) = (&state.position[..degrees], &state.velocity[..degrees]);
+        let cavities = self.model.compartments.len();
+        let Containers {
+            each,
+            responses,
+            middle: [middle, before],
+            rates,
+            accelerations,
+            loads,
+        } = containers;
+        loads.clear();
+        loads.resize(cavities, DVec3::ZERO);
+        accelerations.clear();
+        accelerations.resize(degrees, 0.0);
+        let advance = |from: &[f64], by: &[f64], time: f64, to: &mut Vec<f64>| {
+            to.clear();
+            to.extend(from.iter().zip(by).map(|(from, by)| from + by * time));
+        };
+        // Of second order: with the accelerations at the middle of the step.
+        let half = 0.5 * time_step;
+        self.mount
+            .accelerate(self.time, position, velocity, loads, accelerations);
+        advance(position, velocity, half, middle);
+        advance(velocity, accelerations, half, before);
+        let mut rates_under = |loads: &[DVec3], rates: &mut Vec<f64>| {
+            let time = self.time + half;
+            self.mount
+                .accelerate(time, middle, before, loads, accelerations);
+            advance(velocity, accelerations, time_step, rates);
+        };
+        let end = self.time + time_step;
+        let at_end =
+            |rates: &[f64], cavity| self.mount.motion(end, position, rates, cavity).velocity;
+
+        rates_under(loads, rates);
+        each.clear();
+        each.extend(
+            self.model
+                .compartments
+                .iter()
+                .enumerate()
+                .map(|(cavity, compartment)| {
+                    let free = at_end(rates, cavity);
+                    let velocity_gain =
+                        self.gravity * time_step - (free - compartment.motion.velocity);
+                    Container {
+                        velocity: S::vector(free),
+                        free: S::vector(free),
+                        velocity_gain,
+                        speed_gain: velocity_gain.length(),
+                        origin: compartment.motion.position,
+                    }
+                }),
+        );
+        responses.clear();
+        if degrees == 0 {
+            return;
+        }
+        responses.resize(cavities * cavities, DMat3::ZERO);
+        for struck in 0..cavities {
+            for axis in 0..S::WIDTH {
+                loads[struck] = DVec3::AXES[axis];
+                rates_under(loads, rates);
+                loads[struck] = DVec3::ZERO;
+                for (cavity, container) in each.iter().enumerate() {
+                    let gained = at_end(rates, cavity) - S::in_space(container.free);
+                    *responses[struck * cavities + cavity].col_mut(axis) = gained / time_step;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! Contact constraints of pairs, worked out side by side.
+
+// Small functions of the innermost loop: the compiler must see the loop whole.
+#![allow(clippy::inline_always)]
+
+use super::constraint::TURNING;
+use super::prepare::{ConstraintInfo, ContactKinematics};
+use super::{ImpulseSolver, SolverStep};
+use crate::cavity::Cavity;
+use crate::damper::neighbours::NeighbourList;
+use crate::damper::state::{Space, StateView};
+use crate::law::{ImpulseLaw, at_least, at_most};
+
+/// How many pairs are side by side at the most.
+const LANES: usize = 32;
+
+type Column = [f64; LANES];
+
+/// Pairs in reach, side by side: so that several roots and quotients are under way at a time.
+#[derive(Debug, Clone)]
+pub(super) struct Lanes<S: Space> {
+    /// From the second centre to the first, m.
+    towards: [S::Vector; LANES],
+    /// Rate at which the distance of the centres speed_gains, times that distance, m^2/s.
+    closing: Column,
+    /// Square of the distance, m^2, and then the distance, m.
+    distance: Column,
+    /// Reciprocal of the distance, 1/m.
+    inverse: Column,
+    /// Sum of the radii, m.
+    touching: Column,
+    /// Speed along the normal, m/s, not negative.
+    approach: Column,
+    /// How much nearer they are than they have to be, m.
+    within: Column,
+}
+
+impl<S: Space> Default for Lanes<S> {
+    fn default() -> Self {
+        Self {
+            towards: [S::Vector::default(); LANES],
+            closing: [0.0; LANES],
+            distance: [0.0; LANES],
+            inverse: [0.0; LANES],
+            touching: [0.0; LANES],
+            approach: [0.0; LANES],
+            within: [0.0; LANES],
+        }
+    }
+}
+
+impl<S: Space> Lanes<S> {
+    /// Works out which of the first `count` pairs are in contact. Returns their lanes, and how many.
+    #[inline(always)]
+    fn find_active(&mut self, step: &SolverStep, count: usize) -> ([u8; LANES], usize) {
+        let count = count.min(LANES);
+        for n in 0..count {
+            let distance = self.distance[n].sqrt();
+            let inverse = 1.0 / (distance + f64::MIN_POSITIVE);
+            let approach = at_least(self.closing[n] * inverse, 0.0);
+            let gap = distance - self.touching[n];
+            self.distance[n] = distance;
+            self.inverse[n] = inverse;
+            self.approach[n] = approach;
+            self.within[n] = step.prediction_distance(approach) - gap;
+        }
+        let mut active = [0; LANES];
+        let mut found = 0;
+        for n in 0..count {
+            // Written before it is known whether it counts: no branch to mispredict.
+            active[found] = n as u8;
+            found += usize::from(self.within[n] > 0.0);
+        }
+        (active, found)
+    }
+}
+
+impl<S: Space> ImpulseSolver<S> {
+    /// Adds the constraints of the pairs of a list. Returns their largest overlap in m.
+    pub(super) fn add_pairs<C: Cavity, L: ImpulseLaw>(
+        &mut self,
+        step: &SolverStep,
+        view: &StateView<'_, C, L>,
+        list: &NeighbourList<L>,
+    ) -> f64 {
+        let start = self.constraints.len();
+        let mut deepest = 0.0;
+        let runs = list.contacts.bodies().chunks(LANES);
+        for (bodies, candidates) in runs.zip(list.contacts.candidates().chunks(LANES)) {
+            self.gather(view, bodies);
+            let (active, found) = self.lanes.find_active(step, bodies.len());
+            for n in &active[..found.min(LANES)] {
+                let n = *n as usize % LANES;
+                let held = list.memory_of(candidates[n], view.stamp);
+                let [i, j] = bodies[n].map(|index| index as usize);
+                let lanes = &self.lanes;
+                let lever = lanes.distance[n] / lanes.touching[n];
+                let inverse_mass = self.bodies[i].inverse_mass + self.bodies[j].inverse_mass;
+                let kinematics = ContactKinematics {
+                    overlap: lanes.touching[n] - lanes.distance[n],
+                    approach: lanes.approach[n],
+                    smaller_radius: at_most(view.radius[i], view.radius[j]),
+                    inverse_masses: [inverse_mass, inverse_mass * (1.0 + TURNING * lever * lever)],
+                    speed_gain: self.containers.each[view.compartment_of(bodies[n][0])].speed_gain,
+                };
+                let place = (bodies[n], lanes.towards[n] * lanes.inverse[n], lever);
+                let other;
+                let own = if let Some(only) = view.coefficients.only_pair() {
+                    only
+                } else {
+                    other = view.pair(list, bodies[n], candidates[n]);
+                    &other
+                };
+                let (constraint, rests) = step.constrain(view.law, own, place, &kinematics, held);
+                deepest = at_least(kinematics.overlap, deepest);
+                self.constraints.push(constraint);
+                self.infos.push(ConstraintInfo {
+                    candidate: candidates[n],
+                    wall: 0,
+                    rests,
+                    before: held.map_or(0.0, |held| held.force.normal),
+                    speed_gain: kinematics.speed_gain,
+                });
+                self.contact_counts[i] += 1;
+                self.contact_counts[j] += 1;
+            }
+        }
+        self.list_ends.push(self.constraints.len());
+        let only = view.coefficients.only_pair();
+        if only.is_none_or(|own| view.law.rolling_arm(own) > 0.0) {
+            self.resist_rolling(step, view, list, start, |constraint, info| {
+                view.pair(list, constraint.bodies, info.candidate)
+            });
+        }
+        deepest
+    }
+
+    /// Takes pairs into the lanes.
+    #[inline(always)]
+    fn gather<C: Cavity, L: ImpulseLaw>(
+        &mut self,
+        view: &StateView<'_, C, L>,
+        bodies: &[[u32; 2]],
+    ) {
+        let radius = view.radius;
+        // Columns of one length, so that one comparison stands for all their bounds.
+        let position = &S::rows(view.position.flat())[..radius.len()];
+        let bodies_now = &self.bodies[..radius.len()];
+        let lanes = &mut self.lanes;
+        for (n, [i, j]) in bodies.iter().take(LANES).enumerate() {
+            let (i, j) = (*i as usize, *j as usize);
+            let towards = S::from_row(position[i]) - S::from_row(position[j]);
+            lanes.towards[n] = towards;
+            lanes.closing[n] = S::dot(bodies_now[j].velocity - bodies_now[i].velocity, towards);
+            lanes.distance[n] = S::dot(towards, towards);
+            lanes.touching[n] = radius[i] + radius[j];
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! Contact constraints of a step, from the contacts in reach.
+
+// Small functions of the innermost loop: the compiler must see the loop whole.
+#![allow(clippy::inline_always)]
+
+use super::constraint::{ContactConstraint, RollingConstraint, TURNING};
+use super::{ImpulseSolver, SolverStep};
+use crate::cavity::Cavity;
+use crate::contact::{HeldForce, Partner};
+use crate::damper::engine::Engine;
+use crate::damper::neighbours::{Block, ContactId, NeighbourList};
+use crate::damper::state::{Space, StateView};
+use crate::detector::Detector;
+use crate::law::{ImpulseLaw, at_least, at_most};
+use crate::mount::Mount;
+
+/// What is to be known of a constraint besides what sweeps need.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct ConstraintInfo {
+    /// Index among the candidates of its list.
+    pub(super) candidate: u32,
+    /// Number of the wall among those of all cavities; of no account for a pair.
+    pub(super) wall: u32,
+    /// Whether its bodies rest on each other or come to rest: then the target is position correction.
+    pub(super) rests: bool,
+    /// Normal force in the step before, N.
+    pub(super) before: f64,
+    /// Speed that a free body gains on the container over the step, m/s.
+    pub(super) speed_gain: f64,
+}
+
+/// How two bodies meet that are in contact.
+pub(super) struct ContactKinematics {
+    pub(super) overlap: f64,
+    /// Speed along the normal at the start of the step, m/s, positive when approaching.
+    pub(super) approach: f64,
+    pub(super) smaller_radius: f64,
+    /// Reciprocals of the effective masses along the normal and across it, 1/kg.
+    pub(super) inverse_masses: [f64; 2],
+    /// Speed that a free body gains on the container over the step, m/s.
+    pub(super) speed_gain: f64,
+}
+
+impl SolverStep {
+    /// The gap (m) below which bodies may be in contact that approach at a speed (m/s, not negative): they
+    /// will touch within the step.
+    #[inline(always)]
+    pub(super) fn prediction_distance(&self, speed: f64) -> f64 {
+        self.parameters.prediction * self.time_step * speed
+    }
+
+    /// How long a force of the step before acts in a warm start, s, where a free body gains `speed_gain` (m/s) over
+    /// the step. Loads at rest grow with the container's acceleration: so they follow it without delay.
+    #[inline(always)]
+    fn warm_start_time(&self, held: &HeldForce, speed_gain: f64) -> f64 {
+        let time = self.parameters.warm_start * self.time_step;
+        let before = held.gravity * self.time_step;
+        if before > 0.0 {
+            time * at_most(speed_gain / before, 2.0)
+        } else {
+            time
+        }
+    }
+
+    /// The constraint of two bodies that will touch within the step, and whether they rest on each other or
+    /// come to rest.
+    #[inline(always)]
+    pub(super) fn constrain<L: ImpulseLaw, S: Space>(
+        &self,
+        law: &L,
+        own: &L::Coefficients,
+        (bodies, normal, lever): ([u32; 2], S::Vector, f64),
+        kinematics: &ContactKinematics,
+        held: Option<&HeldForce>,
+    ) -> (ContactConstraint<S>, bool) {
+        let parameters = &self.parameters;
+        let rests = kinematics.approach <= parameters.restitution_threshold * kinematics.speed_gain;
+        let restitution = if rests {
+            0.0
+        } else {
+            at_most(
+                at_least(law.restitution(own, kinematics.approach), 0.0),
+                1.0,
+            )
+        };
+        let [effective_mass, tangential_mass] = kinematics.inverse_masses.map(|own| 1.0 / own);
+        let rebound = if restitution > 0.0 {
+            restitution * kinematics.approach
+        } else {
+            // What does not rebound comes as near as touching by the end of the step.
+            at_most(kinematics.overlap, 0.0) / ((1.0 - parameters.prediction) * self.time_step)
+        };
+        let deep = kinematics.overlap - parameters.slop * kinematics.smaller_radius;
+        let target = if deep > 0.0 {
+            let correction = deep * (parameters.position_correction / self.time_step);
+            // No faster than bodies fall, and their load would press them together.
+            let load = held.map_or(0.0, |held| held.load * self.time_step);
+            let most = kinematics.speed_gain + load / effective_mass;
+            at_least(at_most(correction, most), rebound)
+        } else {
+            rebound
+        };
+        let mut constraint = ContactConstraint {
+            bodies,
+            normal,
+            lever,
+            target,
+            effective_mass,
+            tangential_mass,
+            friction: law.friction(own),
+            impulse: 0.0,
+            tangential: S::Tangent::default(),
+        };
+        if let Some(held) = held {
+            constraint.start_from(
+                &held.force,
+                self.warm_start_time(held, kinematics.speed_gain),
+            );
+        }
+        (constraint, rests)
+    }
+}
+
+impl<C: Cavity, L: ImpulseLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
+    /// Prepares a constraint for each active contact, in the order of pairs and then of walls.
+    pub(super) fn prepare<S: Space>(&mut self, step: &SolverStep, solver: &mut ImpulseSolver<S>) {
+        let view = self.model.view(&self.particles, 0.0);
+        solver.clear();
+        for block in &mut self.blocks {
+            block.clear_results();
+            let before = solver.constraints.len();
+            for list in [&block.pairs, &block.halo] {
+                let deepest = solver.add_pairs(step, &view, list);
+                block.largest_overlap = at_least(deepest, block.largest_overlap);
+            }
+            block.contacts += solver.constraints.len() - before;
+        }
+        solver.pairs = solver.constraints.len();
+        for block in &mut self.blocks {
+            let before = solver.constraints.len();
+            solver.add_walls(step, &view, block);
+            block.contacts += solver.constraints.len() - before;
+        }
+        if !solver.rolling.is_empty() {
+            solver
+                .rolling
+                .resize(solver.constraints.len(), RollingConstraint::default());
+        }
+    }
+}
+
+impl<S: Space> ImpulseSolver<S> {
+    /// Forgets the constraints of the step before.
+    fn clear(&mut self) {
+        self.constraints.clear();
+        self.infos.clear();
+        self.pairs = 0;
+        self.list_ends.clear();
+        self.contact_counts.clear();
+        self.contact_counts.resize(self.bodies.len(), 0);
+        self.rolling.clear();
+    }
+
+    /// Adds the constraints of the contacts of a block with walls.
+    fn add_walls<C: Cavity, L: ImpulseLaw>(
+        &mut self,
+        step: &SolverStep,
+        view: &StateView<'_, C, L>,
+        block: &mut Block<L>,
+    ) {
+        let start = self.constraints.len();
+        let list = &block.walls;
+        let contacts = list
+            .contacts
+            .bodies()
+            .iter()
+            .zip(list.contacts.candidates());
+        for (&[index, wall], &candidate) in contacts {
+            let n = index as usize;
+            let body = &self.bodies[n];
+            let cavity = view.cavity_of_wall(wall);
+            let container = &self.containers.each[cavity];
+            let point = view.wall_point(wall, view.position.get(n));
+            let normal = S::vector(point.normal);
+            let radius = view.radius[n];
+            let velocity = body.velocity - container.free;
+            let ahead = -S::dot(velocity, normal);
+            let approach = at_least(ahead + container.velocity_gain.dot(point.normal), 0.0);
+            let overlap = radius - point.distance;
+            let prediction_distance = step.prediction_distance(at_least(ahead, approach));
+            if -overlap >= prediction_distance {
+                continue;
+            }
+            let lever = point.distance / radius;
+            let mut inverse_masses = [1.0, 1.0 + TURNING * lever * lever];
+            inverse_masses = inverse_masses.map(|own| own * body.inverse_mass);
+            if let Some(response) = self.containers.inverse_mass(cavity) {
+                let slip = S::slip(normal, velocity, -ahead, body.spin * lever);
+                let slip = S::across(normal, slip);
+                let square = S::dot(slip, slip) + f64::MIN_POSITIVE;
+                inverse_masses[0] += S::dot(normal, S::transform(response, normal));
+                inverse_masses[1] += S::dot(slip, S::transform(response, slip)) / square;
+            }
+            let kinematics = ContactKinematics {
+                overlap,
+                approach,
+                smaller_radius: radius,
+                inverse_masses,
+                speed_gain: container.speed_gain,
+            };
+            let own = view.coefficients.wall(view.species[n]);
+            let held = list.memory_of(candidate, view.stamp);
+            let bodies = [index, cavity as u32];
+            let place = (bodies, normal, lever);
+            let (constraint, rests) = step.constrain(view.law, own, place, &kinematics, held);
+            block.largest_overlap = at_least(overlap, block.largest_overlap);
+            if overlap > radius {
+                let partner = Partner::Wall(wall - view.compartments[cavity].first_wall);
+                block.escaped = Some(ContactId { index: n, partner });
+            }
+            self.constraints.push(constraint);
+            self.infos.push(ConstraintInfo {
+                candidate,
+                wall,
+                rests,
+                before: held.map_or(0.0, |held| held.force.normal),
+                speed_gain: kinematics.speed_gain,
+            });
+            self.contact_counts[n] += 1;
+        }
+        self.list_ends.push(self.constraints.len());
+        let only = view.coefficients.only_wall();
+        if only.is_none_or(|own| view.law.rolling_arm(own) > 0.0) {
+            self.resist_rolling(step, view, list, start, |constraint, _| {
+                *view
+                    .coefficients
+                    .wall(view.species[constraint.bodies[0] as usize])
+            });
+        }
+    }
+
+    /// Prepares what resists rolling in the constraints from `start` on, whose coefficients `own` tells.
+    pub(super) fn resist_rolling<C: Cavity, L: ImpulseLaw>(
+        &mut self,
+        step: &SolverStep,
+        view: &StateView<'_, C, L>,
+        list: &NeighbourList<L>,
+        start: usize,
+        own: impl Fn(&ContactConstraint<S>, &ConstraintInfo) -> L::Coefficients,
+    ) {
+        for n in start..self.constraints.len() {
+            let (constraint, info) = (&self.constraints[n], &self.infos[n]);
+            let arm = view.law.rolling_arm(&own(constraint, info));
+            if arm <= 0.0 {
+                continue;
+            }
+            let [first, second] = constraint.bodies.map(|body| body as usize);
+            let curvature = |index: usize| 1.0 / view.radius[index];
+            let inverse_inertia = |index: usize| view.inverse_inertia[index];
+            let held = list.memory_of(info.candidate, view.stamp);
+            let speed_gain = info.speed_gain;
+            let couple = held.map_or_else(S::Spin::default, |held| {
+                S::spin(held.force.couple) * step.warm_start_time(held, speed_gain)
+            });
+            let mut rolling = RollingConstraint {
+                arm,
+                curvatures: [curvature(first), 0.0],
+                effective_inertia: 1.0 / inverse_inertia(first),
+                impulse: couple,
+            };
+            // Pairs are listed before walls.
+            if self.pairs == 0 {
+                rolling.curvatures[1] = curvature(second);
+                rolling.effective_inertia =
+                    1.0 / (inverse_inertia(first) + inverse_inertia(second));
+            }
+            self.rolling.resize(n, RollingConstraint::default());
+            self.rolling.push(rolling);
+        }
+    }
+}

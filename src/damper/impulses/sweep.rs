@@ -1,0 +1,178 @@
+//! Sweeps through the contact constraints.
+
+// Small functions of the innermost loop: the compiler must see the loop whole.
+#![allow(clippy::inline_always)]
+
+use super::constraint::{Change, ContactConstraint};
+use super::container::Containers;
+use super::{ImpulseSolver, SolverBody};
+use crate::damper::state::Space;
+
+/// Solves the contact of two particles.
+#[inline(always)]
+fn solve_pair<S: Space>(constraint: &mut ContactConstraint<S>, bodies: &mut [SolverBody<S>]) {
+    let [i, j] = constraint.bodies.map(|index| index as usize);
+    let (mut first, mut second) = (bodies[i], bodies[j]);
+    let velocity = first.velocity - second.velocity;
+    let change = constraint.solve(velocity, first.spin + second.spin);
+    first.add(&change);
+    second.subtract(&change);
+    bodies[i] = first;
+    bodies[j] = second;
+}
+
+/// Solves the contact of a particle with a wall.
+#[inline(always)]
+fn solve_wall<S: Space>(
+    constraint: &mut ContactConstraint<S>,
+    bodies: &mut [SolverBody<S>],
+    containers: &mut Containers<S>,
+) {
+    let [index, cavity] = constraint.bodies.map(|body| body as usize);
+    let body = &mut bodies[index];
+    let velocity = body.velocity - containers.each[cavity].velocity;
+    let change = constraint.solve(velocity, body.spin);
+    body.add(&change);
+    containers.add(cavity, change.impulse * -1.0);
+}
+
+impl<S: Space> ImpulseSolver<S> {
+    /// Lists the constraints that one solve does not settle: those of which a body has more than one, and
+    /// all where rolling is resisted.
+    pub(super) fn list_coupled(&mut self) {
+        self.coupled.clear();
+        let yields = self.containers.yield_at_all();
+        for (number, constraint) in (0..).zip(&self.constraints) {
+            let [first, second] = constraint.bodies.map(|body| body as usize);
+            let alone = if (number as usize) < self.pairs {
+                self.contact_counts[first] + self.contact_counts[second] == 2
+            } else {
+                self.contact_counts[first] == 1 && !yields
+            };
+            if !alone || !self.rolling.is_empty() {
+                self.coupled.push(number);
+            }
+        }
+    }
+
+    /// Gives what contacts start from.
+    pub(super) fn warm_start(&mut self) {
+        for number in 0..self.constraints.len() {
+            let constraint = &self.constraints[number];
+            if constraint.impulse > 0.0 {
+                let change = constraint.so_far();
+                self.give(number, &change);
+            }
+            if let Some(rolling) = self.rolling.get(number) {
+                self.roll(number, rolling.impulse);
+            }
+        }
+    }
+
+    /// Solves each constraint in turn, with the velocities that those before it left: to and fro, and from
+    /// the second sweep on only those that one solve does not settle.
+    pub(super) fn sweep(&mut self, number: u32) {
+        if !self.rolling.is_empty() {
+            self.sweep_rolling(number.is_multiple_of(2));
+        } else if number == 0 {
+            let (pairs, walls) = self.constraints.split_at_mut(self.pairs);
+            for pair in pairs {
+                solve_pair(pair, &mut self.bodies);
+            }
+            for wall in walls {
+                solve_wall(wall, &mut self.bodies, &mut self.containers);
+            }
+        } else if number.is_multiple_of(2) {
+            for n in 0..self.coupled.len() {
+                self.solve_coupled(n);
+            }
+        } else {
+            for n in (0..self.coupled.len()).rev() {
+                self.solve_coupled(n);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn solve_coupled(&mut self, n: usize) {
+        let number = self.coupled[n] as usize;
+        let constraint = &mut self.constraints[number];
+        if number < self.pairs {
+            solve_pair(constraint, &mut self.bodies);
+        } else {
+            solve_wall(constraint, &mut self.bodies, &mut self.containers);
+        }
+    }
+
+    /// The same where something resists rolling.
+    fn sweep_rolling(&mut self, to: bool) {
+        let count = self.constraints.len();
+        for turn in 0..count {
+            let number = if to { turn } else { count - 1 - turn };
+            let constraint = &mut self.constraints[number];
+            let [first, second] = constraint.bodies.map(|body| body as usize);
+            let mut spins = [S::Spin::default(); 2];
+            if number < self.pairs {
+                solve_pair(constraint, &mut self.bodies);
+                spins[1] = self.bodies[second].spin;
+            } else {
+                solve_wall(constraint, &mut self.bodies, &mut self.containers);
+            }
+            spins[0] = self.bodies[first].spin;
+            let change = self.rolling[number].solve(spins, constraint.impulse);
+            self.roll(number, change);
+        }
+    }
+
+    /// Solves all constraints from the same velocities.
+    pub(super) fn sweep_at_once(&mut self) {
+        self.before_sweep.0.clone_from(&self.bodies);
+        self.before_sweep.1.clone_from(&self.containers.each);
+        for number in 0..self.constraints.len() {
+            let (bodies, containers) = (&self.before_sweep.0, &self.before_sweep.1);
+            let constraint = &mut self.constraints[number];
+            let [first, second] = constraint.bodies.map(|body| body as usize);
+            let first = bodies[first];
+            let second = if number < self.pairs {
+                bodies[second]
+            } else {
+                SolverBody {
+                    velocity: containers[second].velocity,
+                    ..SolverBody::default()
+                }
+            };
+            let velocity = first.velocity - second.velocity;
+            let change = constraint.solve(velocity, first.spin + second.spin);
+            let impulse = constraint.impulse;
+            self.give(number, &change);
+            if let Some(rolling) = self.rolling.get_mut(number) {
+                let change = rolling.solve([first.spin, second.spin], impulse);
+                self.roll(number, change);
+            }
+        }
+    }
+
+    /// Gives the bodies of a constraint a change of its impulses.
+    #[inline(always)]
+    fn give(&mut self, number: usize, change: &Change<S>) {
+        let [first, second] = self.constraints[number].bodies.map(|body| body as usize);
+        self.bodies[first].add(change);
+        if number < self.pairs {
+            self.bodies[second].subtract(change);
+        } else {
+            self.containers.add(second, change.impulse * -1.0);
+        }
+    }
+
+    /// Gives the bodies of a constraint a change of its angular impulse.
+    fn roll(&mut self, number: usize, change: S::Spin) {
+        let [first, second] = self.constraints[number].bodies.map(|body| body as usize);
+        let rolling = &self.rolling[number];
+        let body = &mut self.bodies[first];
+        body.spin += rolling.turn(0, change) * body.inverse_mass;
+        if number < self.pairs {
+            let body = &mut self.bodies[second];
+            body.spin -= rolling.turn(1, change) * body.inverse_mass;
+        }
+    }
+}

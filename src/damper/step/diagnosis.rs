@@ -1,0 +1,169 @@
+//! What lies behind a step that cannot be taken: whoever is found out of place is rarely to blame.
+
+use crate::step_error::Cause;
+
+use crate::cavity::Cavity;
+use crate::damper::engine::Engine;
+use crate::detector::Detector;
+use crate::law::ContactLaw;
+use crate::mount::{Motion, Mount};
+use crate::observer::Observable;
+use crate::step_error::StepError;
+
+/// How far a container may leave the course that it begins a step with, in radii of the smallest particle.
+const JUMP: f64 = 0.5;
+
+/// How far a container may move in a step, in the same measure, before it is held to be the cause of what
+/// happens to particles.
+const FAST: f64 = 0.1;
+
+/// Speeds up to this multiple of what the contact law is set up for are borne.
+const ABOVE: f64 = 2.0;
+
+/// What position and velocity of a prescribed motion may differ by over a step, in parts of its way. A kink
+/// in the midst of a step makes half of it.
+const RATE: f64 = 0.5;
+
+/// The same in radii of the smallest particle, for motions that hardly move.
+const STILL: f64 = 1e-4;
+
+/// How a step began.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct StepStart {
+    /// Motions of the containers.
+    motions: Vec<Motion>,
+    /// Length of the step, s.
+    time_step: f64,
+}
+
+impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
+    /// Keeps how a step of `time_step` (s) begins.
+    pub(crate) fn note_start(&mut self, time_step: f64) {
+        self.step_start.time_step = time_step;
+        self.step_start.motions.clear();
+        let motions = self
+            .model
+            .compartments
+            .iter()
+            .map(|compartment| compartment.motion);
+        self.step_start.motions.extend(motions);
+    }
+
+    /// What may be behind particles out of place.
+    pub(crate) fn cause(&self) -> Cause {
+        let radius = self.particles.smallest_radius;
+        let reference = self.model.law.design_speed();
+        let borne = ABOVE * reference;
+        let compartments = self.model.compartments.iter().zip(&self.step_start.motions);
+        let far = compartments.map(|(compartment, start)| {
+            (
+                compartment.motion,
+                compartment.motion.position.distance(start.position),
+            )
+        });
+        let fastest = far.max_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((motion, way)) = fastest
+            && (way > FAST * radius || motion.velocity.length() > borne)
+        {
+            let velocity = motion.velocity;
+            return self.runaway().unwrap_or(Cause::Container { velocity, way });
+        }
+        let (index, speed) = self.fastest();
+        if speed > borne {
+            return Cause::Speed {
+                particle: self.particles.id[index] as usize,
+                speed,
+                reference,
+            };
+        }
+        Cause::Unknown { speed }
+    }
+
+    /// The coordinate of the mount that moves fastest.
+    fn runaway(&self) -> Option<Cause> {
+        let rates = self.rates().iter().enumerate();
+        let (coordinate, rate) = rates.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        Some(Cause::Mount {
+            coordinate,
+            value: self.coordinates()[coordinate],
+            rate: *rate,
+        })
+    }
+
+    /// Slot and speed of the particle that is fastest relative to its container.
+    fn fastest(&self) -> (usize, f64) {
+        let mut fastest = (0, 0.0);
+        for compartment in &self.model.compartments {
+            for index in compartment.indices.clone() {
+                let velocity = self.particles.velocity.get(index) - compartment.motion.velocity;
+                if velocity.length() > fastest.1 {
+                    fastest = (index, velocity.length());
+                }
+            }
+        }
+        fastest
+    }
+
+    /// Refuses a container that has left the course with which it began the step by so much that its walls
+    /// may have passed over particles.
+    pub(crate) fn check_course(&self) -> Result<(), StepError> {
+        let limit = JUMP * self.particles.smallest_radius;
+        for (cavity, (compartment, start)) in self
+            .model
+            .compartments
+            .iter()
+            .zip(&self.step_start.motions)
+            .enumerate()
+        {
+            let course = start.velocity * self.step_start.time_step;
+            let off = (compartment.motion.position - start.position - course).length();
+            if off > limit {
+                let way = compartment.motion.position.distance(start.position);
+                let velocity = compartment.motion.velocity;
+                let cause = self.runaway();
+                return Err(StepError::Jump {
+                    cavity,
+                    off,
+                    limit,
+                    cause: cause.unwrap_or(Cause::Container { velocity, way }),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses the velocity of a prescribed motion that is not the rate of its position.
+    pub(crate) fn check_rates(&self) -> Result<(), StepError> {
+        if self.mount.degrees() > 0 {
+            return Ok(());
+        }
+        let radius = self.particles.smallest_radius.min(f64::MAX);
+        let time_step = self.step_start.time_step;
+        for (cavity, (compartment, start)) in self
+            .model
+            .compartments
+            .iter()
+            .zip(&self.step_start.motions)
+            .enumerate()
+        {
+            let way = compartment.motion.position - start.position;
+            let velocity = (start.velocity + compartment.motion.velocity) * 0.5;
+            let fastest = start
+                .velocity
+                .length()
+                .max(compartment.motion.velocity.length());
+            let off = (way - velocity * time_step).length();
+            // A leap is told as such.
+            if way.length() <= JUMP * radius
+                && off > RATE * fastest * time_step * (1.0 + 1e-9) + STILL * radius
+            {
+                return Err(StepError::NotItsRate {
+                    cavity,
+                    velocity,
+                    rate: way / time_step,
+                });
+            }
+        }
+        Ok(())
+    }
+}
