@@ -8,15 +8,12 @@ use crate::detector::{Detector, LinkedCells, Skin};
 use crate::integrator::{Integrator, VelocityVerlet};
 use crate::law::ContactLaw;
 use crate::mount::{Driven, Motion, Mount};
-use crate::observer::{Observable, Observer, StepReport};
+use crate::observer::{Observable, Observer};
 use crate::particle::Particle;
 use crate::step_error::StepError;
 use engine::Engine;
-use impulses::ContactSolver;
-use neighbours::{Block, reserved_by};
 use snapshot::Setup;
 use state::Clock;
-use step::Step;
 
 mod builder;
 mod drive;
@@ -89,36 +86,22 @@ where
                     | StepError::Overlap { .. }
                     | StepError::Jump { .. })
         ) {
-            self.engine.check_rates()?;
+            self.engine.state.check_rates()?;
         }
         done
     }
 
     /// Starts the sums of impulses on the containers afresh.
     fn reset_impulses(&mut self) {
-        let degrees = self.engine.mount.degrees();
-        let state = &mut self.engine.mount_state;
+        let degrees = self.engine.state.mount.degrees();
+        let state = &mut self.engine.state.mount_coordinates;
         state.position[degrees..].fill(0.0);
         state.velocity[degrees..].fill(0.0);
     }
 
     fn advance<O: Observer>(&mut self, dt: f64, observer: &mut O) -> Result<(), StepError> {
-        self.engine.note_start(dt);
-        self.engine.sort_in_time()?;
-        self.engine.begin_step(dt, observer)?;
-        let mut step = Step {
-            begin: self.clock.time(),
-            engine: &mut self.engine,
-            observer,
-            fresh: true,
-        };
-        self.integrator.step(&mut step, dt)?;
-        self.engine.end_step();
-        self.engine.check_course()?;
-        self.clock.advance(dt);
-        self.engine.time = self.clock.time();
-        observer.step(&StepReport::new(self.engine.time, dt, &self.engine));
-        Ok(())
+        let (clock, integrator) = (&mut self.clock, &mut self.integrator);
+        self.engine.step(dt, clock, integrator, observer)
     }
 
     /// Simulated time in s.
@@ -136,7 +119,7 @@ where
     /// How many particles there are.
     #[must_use]
     pub const fn len(&self) -> usize {
-        self.engine.particles.len()
+        self.engine.state.particles.len()
     }
 
     /// Whether the container is empty.
@@ -154,29 +137,29 @@ where
 
     /// The particles in the order of their numbers.
     pub fn particles(&self) -> impl ExactSizeIterator<Item = Particle> {
-        self.engine.particles.index_of.iter().map(|index| {
+        self.engine.state.particles.index_of.iter().map(|index| {
             let index = *index as usize;
-            let cavity = self.engine.model.cavity_of(index) as u32;
-            self.engine.particles.particle(index, cavity)
+            let cavity = self.engine.state.model.cavity_of(index) as u32;
+            self.engine.state.particles.particle(index, cavity)
         })
     }
 
     /// The mount.
     #[must_use]
     pub const fn mount(&self) -> &M {
-        &self.engine.mount
+        &self.engine.state.mount
     }
 
     /// The contact law.
     #[must_use]
     pub const fn law(&self) -> &L {
-        &self.engine.model.law
+        &self.engine.state.model.law
     }
 
     /// The detector of a cavity.
     #[must_use]
     pub fn detector(&self, cavity: usize) -> Option<&D> {
-        self.engine.detectors.get(cavity)
+        self.engine.neighbours.detectors.get(cavity)
     }
 
     /// The mount's generalised coordinates.
@@ -200,10 +183,15 @@ where
     /// What the particles of a cavity did to its container over the last step.
     #[must_use]
     pub fn reaction(&self, cavity: usize) -> Option<Reaction> {
-        let first = self.engine.mount.degrees() + 3 * cavity;
-        let impulse = self.engine.mount_state.velocity.get(first..first + 3)?;
+        let first = self.engine.state.mount.degrees() + 3 * cavity;
+        let impulse = self
+            .engine
+            .state
+            .mount_coordinates
+            .velocity
+            .get(first..first + 3)?;
         Some(Reaction {
-            force: *self.engine.loads.get(cavity)?,
+            force: *self.engine.state.loads.get(cavity)?,
             impulse: DVec3::from_slice(impulse),
         })
     }
@@ -230,15 +218,15 @@ where
     /// How many particles have their centre outside their cavity.
     #[must_use]
     pub fn outside(&self) -> usize {
-        (0..self.engine.model.compartments.len())
+        (0..self.engine.state.model.compartments.len())
             .filter_map(|cavity| {
                 Some((
-                    &self.engine.model.compartments[cavity],
+                    &self.engine.state.model.compartments[cavity],
                     self.container(cavity)?,
                 ))
             })
             .map(|(compartment, container)| {
-                let position = |index| self.engine.particles.position.get(index);
+                let position = |index| self.engine.state.particles.position.get(index);
                 let outside = |index: &usize| {
                     clearance(&compartment.cavity, position(*index) - container.position) < 0.0
                 };
@@ -250,22 +238,13 @@ where
     /// How often candidates have been listed anew.
     #[must_use]
     pub const fn detections(&self) -> u64 {
-        self.engine.detections
+        self.engine.neighbours.detections
     }
 
     /// Memory in bytes that particles, candidates and contacts have reserved.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
-        let blocks = self.engine.blocks.iter().map(Block::reserved_bytes);
-        self.engine.particles.reserved_bytes()
-            + self.engine.scratch.reserved_bytes()
-            + self
-                .engine
-                .solver
-                .as_ref()
-                .map_or(0, ContactSolver::reserved_bytes)
-            + self.engine.history_pool.sum(reserved_by)
-            + blocks.sum::<usize>()
+        self.engine.reserved_bytes()
     }
 
     /// Kinetic energy of the particles in J, translation and spin.

@@ -62,7 +62,7 @@ where
         for number in 1..=cut.steps {
             let next = course.at_part(number as f64 / cut.steps as f64);
             let from = self.container(0).unwrap_or_default();
-            let mount = &mut self.engine.mount;
+            let mount = &mut self.engine.state.mount;
             mount.head_for(self.clock.time(), cut.step, from, next);
             self.advance(cut.step, observer)?;
         }

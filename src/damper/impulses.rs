@@ -6,8 +6,8 @@
 //! moves everything: x' = x + (v + v') dt/2. What is here serves the step alone, but for the forces that
 //! contacts at rest bore, from which the next step starts.
 
-use super::engine::Engine;
-use super::state::{Plane, Space, Vectors, Volume};
+use super::neighbours::Neighbours;
+use super::state::{Plane, Space, State, Vectors, Volume};
 use crate::cavity::Cavity;
 use crate::detector::Detector;
 use crate::law::{ImpulseLaw, SolverParameters, SweepOrder};
@@ -118,65 +118,78 @@ struct SolverStep {
     parameters: SolverParameters,
 }
 
-impl<C: Cavity, L: ImpulseLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
-    /// Works out the impulses of a step of `time_step` (s), and leaves the accelerations and the loads on
-    /// walls that hold over it.
-    pub(crate) fn solve_contacts<O: Observer>(
+impl ContactSolver {
+    /// Works out the impulses of the step of `state` that begins, and leaves the accelerations and the loads
+    /// on walls that hold over it.
+    pub(crate) fn solve<C, L, M, D, O>(
         &mut self,
-        time_step: f64,
+        state: &mut State<C, L, M>,
+        neighbours: &mut Neighbours<L, D>,
         observer: &mut O,
-    ) -> Result<(), StepError> {
+    ) -> Result<(), StepError>
+    where
+        C: Cavity,
+        L: ImpulseLaw,
+        M: Mount,
+        D: Detector,
+        O: Observer,
+    {
+        match self {
+            Self::Plane(solver) => solver.solve(state, neighbours, observer),
+            Self::Volume(solver) => solver.solve(state, neighbours, observer),
+        }
+    }
+}
+
+impl<S: Space> ImpulseSolver<S> {
+    fn solve<C, L, M, D, O>(
+        &mut self,
+        state: &mut State<C, L, M>,
+        neighbours: &mut Neighbours<L, D>,
+        observer: &mut O,
+    ) -> Result<(), StepError>
+    where
+        C: Cavity,
+        L: ImpulseLaw,
+        M: Mount,
+        D: Detector,
+        O: Observer,
+    {
         let step = SolverStep {
-            time_step,
-            parameters: self.model.law.solver(),
+            time_step: state.time_step,
+            parameters: state.model.law.solver(),
         };
-        // Out of the engine while it works on the rest of it.
-        let mut plane_or_volume = self.solver.take();
-        let outcome = match &mut plane_or_volume {
-            Some(ContactSolver::Plane(solver)) => self.solve(&step, solver, observer),
-            Some(ContactSolver::Volume(solver)) => self.solve(&step, solver, observer),
-            None => Ok(()),
-        };
-        self.solver = plane_or_volume;
-        outcome
+        state.place_containers(state.time)?;
+        self.predict(&step, state)?;
+        std::mem::swap(&mut state.particles.position, &mut self.predicted);
+        let found = self.find_constraints(&step, state, neighbours);
+        std::mem::swap(&mut state.particles.position, &mut self.predicted);
+        found?;
+        self.list_coupled();
+        self.warm_start();
+        for sweep in 0..step.parameters.sweeps {
+            match step.parameters.order {
+                SweepOrder::Sequential => self.sweep(sweep),
+                SweepOrder::Simultaneous => self.sweep_at_once(),
+            }
+        }
+        self.apply(&step, state, &mut neighbours.blocks)?;
+        if observer.wants_contacts() {
+            self.report(&step, state, observer);
+        }
+        Ok(())
     }
 
     /// Lists what is in reach, and prepares the constraints, of the bed where it will be.
-    fn find_constraints<S: Space>(
+    fn find_constraints<C: Cavity, L: ImpulseLaw, M: Mount, D: Detector>(
         &mut self,
         step: &SolverStep,
-        solver: &mut ImpulseSolver<S>,
+        state: &State<C, L, M>,
+        neighbours: &mut Neighbours<L, D>,
     ) -> Result<(), StepError> {
-        self.set_prediction_distance(solver.prediction_distance)?;
-        self.find_contacts(true)?;
-        self.prepare(step, solver);
-        self.check_overlaps()
-    }
-
-    fn solve<S: Space, O: Observer>(
-        &mut self,
-        step: &SolverStep,
-        solver: &mut ImpulseSolver<S>,
-        observer: &mut O,
-    ) -> Result<(), StepError> {
-        self.place_containers(self.time)?;
-        self.predict(step, solver)?;
-        std::mem::swap(&mut self.particles.position, &mut solver.predicted);
-        let found = self.find_constraints(step, solver);
-        std::mem::swap(&mut self.particles.position, &mut solver.predicted);
-        found?;
-        solver.list_coupled();
-        solver.warm_start();
-        for sweep in 0..step.parameters.sweeps {
-            match step.parameters.order {
-                SweepOrder::Sequential => solver.sweep(sweep),
-                SweepOrder::Simultaneous => solver.sweep_at_once(),
-            }
-        }
-        self.apply(step, solver)?;
-        if observer.wants_contacts() {
-            self.report(step, solver, observer);
-        }
-        Ok(())
+        neighbours.set_prediction_distance(state, self.prediction_distance)?;
+        neighbours.find_contacts(state, true)?;
+        self.prepare(step, state, &mut neighbours.blocks);
+        neighbours.check_overlaps(state)
     }
 }

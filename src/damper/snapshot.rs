@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::Damper;
 use super::engine::Engine;
 use super::neighbours::ContactRecord;
-use super::state::{Clock, MountState};
+use super::state::{Clock, MountCoordinates};
 use crate::cavity::Cavity;
 use crate::contact::WallLoad;
 use crate::detector::Detector;
@@ -65,7 +65,7 @@ pub struct Snapshot<Memory> {
     spin: Vec<DVec3>,
     acceleration: Vec<DVec3>,
     angular_acceleration: Vec<DVec3>,
-    mount: MountState,
+    mount: MountCoordinates,
     containers: Vec<Motion>,
     wall_loads: Vec<WallLoad>,
     loads: Vec<DVec3>,
@@ -203,12 +203,16 @@ impl<Memory> Snapshot<Memory> {
         M: Mount,
         D: Detector,
     {
-        let count = engine.particles.len();
-        let cavities = engine.model.compartments.len();
-        let coordinates = engine.mount_state.position.len();
+        let count = engine.state.particles.len();
+        let cavities = engine.state.model.compartments.len();
+        let coordinates = engine.state.mount_coordinates.position.len();
         RestoreError::count("particles", count, self.number.len())?;
         RestoreError::count("cavities", cavities, self.containers.len())?;
-        RestoreError::count("walls", engine.wall_loads.len(), self.wall_loads.len())?;
+        RestoreError::count(
+            "walls",
+            engine.state.wall_loads.len(),
+            self.wall_loads.len(),
+        )?;
         RestoreError::count("mount coordinates", coordinates, self.mount.position.len())?;
         if let Some(quantity) = setup.difference(&self.setup) {
             return Err(RestoreError::OtherSetup { quantity });
@@ -241,8 +245,8 @@ impl<Memory> Snapshot<Memory> {
         RestoreError::sound("wall loads", self.wall_loads.iter().all(loaded))?;
         RestoreError::sound("loads", self.loads.iter().all(|load| load.is_finite()))?;
         self.check_numbers(engine)?;
-        self.check_memory(count, engine.wall_loads.len())?;
-        if self.digest(&engine.model.law) != self.digest {
+        self.check_memory(count, engine.state.wall_loads.len())?;
+        if self.digest(&engine.state.model.law) != self.digest {
             return Err(RestoreError::Changed);
         }
         Ok(())
@@ -253,7 +257,7 @@ impl<Memory> Snapshot<Memory> {
     where
         L: ContactLaw,
     {
-        let particles = &engine.particles;
+        let particles = &engine.state.particles;
         let mut seen = vec![false; particles.len()];
         for (index, (number, species)) in self.number.iter().zip(&self.species).enumerate() {
             let number = *number as usize;
@@ -262,7 +266,7 @@ impl<Memory> Snapshot<Memory> {
                 .is_some_and(|seen| !std::mem::replace(seen, true));
             RestoreError::sound("particle numbers", own)?;
             let now = particles.index_of[number] as usize;
-            let at_home = engine.model.cavity_of(index) == engine.model.cavity_of(now);
+            let at_home = engine.state.model.cavity_of(index) == engine.state.model.cavity_of(now);
             RestoreError::sound("particle numbers", at_home)?;
             RestoreError::sound("species", particles.species[now] == *species)?;
         }
@@ -299,13 +303,13 @@ where
     #[must_use]
     pub fn snapshot(&self) -> Snapshot<ContactMemory<L>> {
         let engine = &self.engine;
-        let particles = &engine.particles;
+        let particles = &engine.state.particles;
         let mut snapshot = Snapshot {
             version: VERSION,
             digest: Digest::default(),
             setup: self.setup,
             clock: self.clock,
-            since_sort: engine.since_sort,
+            since_sort: engine.neighbours.since_sort,
             species: particles.species.clone(),
             number: particles.id.clone(),
             position: particles.position.iter().collect(),
@@ -313,18 +317,19 @@ where
             spin: particles.spin.iter().collect(),
             acceleration: particles.acceleration.iter().collect(),
             angular_acceleration: particles.angular_acceleration.iter().collect(),
-            mount: engine.mount_state.clone(),
+            mount: engine.state.mount_coordinates.clone(),
             containers: engine
+                .state
                 .model
                 .compartments
                 .iter()
                 .map(|compartment| compartment.motion)
                 .collect(),
-            wall_loads: engine.wall_loads.clone(),
-            loads: engine.loads.clone(),
-            memory: engine.history(),
+            wall_loads: engine.state.wall_loads.clone(),
+            loads: engine.state.loads.clone(),
+            memory: engine.neighbours.history(engine.state.stamp),
         };
-        snapshot.digest = snapshot.digest(&engine.model.law);
+        snapshot.digest = snapshot.digest(&engine.state.model.law);
         snapshot
     }
 
@@ -341,7 +346,7 @@ where
         }
         let engine = &mut self.engine;
         snapshot.check(engine, &self.setup)?;
-        let particles = &mut engine.particles;
+        let particles = &mut engine.state.particles;
         particles.rearrange(&snapshot.number);
         particles.position.assign(snapshot.position.iter().copied());
         particles.velocity.assign(snapshot.velocity.iter().copied());
@@ -351,10 +356,11 @@ where
             .assign(snapshot.acceleration.iter().copied());
         let turning = snapshot.angular_acceleration.iter();
         particles.angular_acceleration.assign(turning.copied());
-        engine.mount_state.clone_from(&snapshot.mount);
-        engine.wall_loads.clone_from(&snapshot.wall_loads);
-        engine.loads.clone_from(&snapshot.loads);
+        engine.state.mount_coordinates.clone_from(&snapshot.mount);
+        engine.state.wall_loads.clone_from(&snapshot.wall_loads);
+        engine.state.loads.clone_from(&snapshot.loads);
         for (compartment, motion) in engine
+            .state
             .model
             .compartments
             .iter_mut()
@@ -362,11 +368,13 @@ where
         {
             compartment.motion = *motion;
         }
-        engine.mount.resume(&snapshot.containers);
+        engine.state.mount.resume(&snapshot.containers);
         self.clock = snapshot.clock;
-        engine.since_sort = snapshot.since_sort;
-        engine.time = self.clock.time();
-        engine.list(Some(&snapshot.memory))?;
+        engine.neighbours.since_sort = snapshot.since_sort;
+        engine.state.time = self.clock.time();
+        engine
+            .neighbours
+            .list(&engine.state, Some(&snapshot.memory))?;
         Ok(())
     }
 }

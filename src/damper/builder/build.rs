@@ -7,17 +7,19 @@ use crate::cavity::Cavity;
 use crate::contact::{Body, WallLoad};
 use crate::damper::Damper;
 use crate::damper::engine::Engine;
+use crate::damper::forces::Forces;
 use crate::damper::impulses::ContactSolver;
-use crate::damper::neighbours::{BLOCK, Scratch, history_buffers};
+use crate::damper::neighbours::{BLOCK, Neighbours};
 use crate::damper::snapshot::Setup;
-use crate::damper::state::{Clock, Coefficients, Compartment, Model, MountState, Particles};
-use crate::damper::step::StepStart;
+use crate::damper::state::{
+    Clock, Coefficients, Compartment, Model, MountCoordinates, Particles, PreviousAccelerations,
+    State, StepStart,
+};
 use crate::detector::Detector;
 use crate::error::{Bound, ValueError};
 use crate::integrator::{Integrator, Stage};
 use crate::law::{ContactLaw, ForceLaw, ImpulseLaw, LawKind, LawVisitor};
 use crate::mount::{self, Motion, Mount};
-use crate::parallel::Pool;
 use crate::particle::Particle;
 
 /// Candidates without a skin are listed up to this fraction of the smallest radius, so that they
@@ -48,44 +50,49 @@ where
         let particles = Particles::new(&self.particles, numbers, planar);
         let coefficients = Coefficients::new(&self.law, &particles.kinds, self.wall_material)?;
         L::Kind::accept(CheckLaw(&self.law))?;
-        let mount_state = MountState::new(&self.mount, self.cavities.len());
+        let mount_coordinates = MountCoordinates::new(&self.mount, self.cavities.len());
         let smallest = particles.smallest_radius;
-        let compartments = self.compartments(smallest, &mount_state);
+        let compartments = self.compartments(smallest, &mount_coordinates);
         let yielding = compartments.iter().map(Compartment::greatest_inverse_mass);
         let wall = Body {
             mass: 1.0 / yielding.fold(0.0, f64::max),
             ..Body::wall(self.wall_material)
         };
         let time_step = self.choose_time_step(&coefficients, wall, &particles)?;
-        let walls = Engine::<C, L, M, D>::wall_count(&compartments);
+        let wall_count = compartments.iter().map(|own| own.cavity.walls() as usize);
+        let walls = wall_count.sum();
+        let neighbours = Neighbours::new(self.detectors, &particles);
+        // What the kind of the law does not need is not there.
+        let blocks = if L::Kind::HELD {
+            0
+        } else {
+            neighbours.blocks.len()
+        };
         let mut engine = Engine {
-            scratch: Scratch::new(&particles, mount_state.acceleration.len()),
-            mount_state,
-            detectors: self.detectors,
-            mount: self.mount,
-            gravity: self.gravity,
-            blocks: Engine::<C, L, M, D>::make_blocks(particles.len(), walls),
-            history_pool: Pool::new(history_buffers(particles.len())),
-            solver: L::Kind::HELD.then(|| ContactSolver::new(&particles.position, planar)),
-            particles,
-            wall_loads: vec![WallLoad::default(); walls],
-            loads: vec![DVec3::ZERO; compartments.len()],
-            model: Model {
-                law: self.law,
-                coefficients,
-                compartment_of_wall: compartment_of_wall(&compartments),
-                compartments,
-                prediction_distance: 0.0,
-                listed_distance: 0.0,
+            neighbours,
+            forces: Forces::new(blocks, walls),
+            impulses: L::Kind::HELD.then(|| ContactSolver::new(&particles.position, planar)),
+            state: State {
+                previous: PreviousAccelerations::new(&particles, &mount_coordinates),
+                mount_coordinates,
+                mount: self.mount,
+                gravity: self.gravity,
+                particles,
+                wall_loads: vec![WallLoad::default(); walls],
+                loads: vec![DVec3::ZERO; compartments.len()],
+                model: Model {
+                    law: self.law,
+                    coefficients,
+                    compartment_of_wall: compartment_of_wall(&compartments),
+                    compartments,
+                },
+                time: self.start_time,
                 stamp: 0,
                 time_step,
+                step_start: StepStart::default(),
+                overlap_limit: self.overlap_limit * smallest,
+                contained: self.contained,
             },
-            time: self.start_time,
-            step_start: StepStart::default(),
-            detections: 0,
-            since_sort: 0,
-            overlap_limit: self.overlap_limit * smallest,
-            contained: self.contained,
         };
         engine.start(self.initial_overlap * smallest)?;
         Ok(Damper {
@@ -211,7 +218,11 @@ where
         numbers
     }
 
-    fn compartments(&mut self, smallest_radius: f64, state: &MountState) -> Vec<Compartment<C>> {
+    fn compartments(
+        &mut self,
+        smallest_radius: f64,
+        state: &MountCoordinates,
+    ) -> Vec<Compartment<C>> {
         let count = self.cavities.len();
         let degrees = self.mount.degrees();
         let (x, v) = (&state.position[..degrees], &state.velocity[..degrees]);
@@ -307,31 +318,32 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// and evaluates the first accelerations.
     fn start(&mut self, allowed: f64) -> Result<(), BuildError> {
         self.check_mount()?;
-        self.place_containers(self.time)?;
-        for compartment in &self.model.compartments {
+        self.state.place_containers(self.state.time)?;
+        for compartment in &self.state.model.compartments {
             for index in compartment.indices.clone() {
-                let position = self.particles.position.get(index) + compartment.motion.position;
-                self.particles.position.set(index, position);
+                let position =
+                    self.state.particles.position.get(index) + compartment.motion.position;
+                self.state.particles.position.set(index, position);
             }
         }
-        self.prepare_detectors()?;
-        self.sort();
-        self.find_contacts(true)?;
+        self.neighbours.prepare_detectors(&self.state)?;
+        self.neighbours.sort(&mut self.state);
+        self.neighbours.find_contacts(&self.state, true)?;
         self.check_initial_overlaps(allowed)?;
-        Ok(self.evaluate(self.time, 0.0, Stage::Trial, false, &mut ())?)
+        Ok(self.evaluate(self.state.time, 0.0, Stage::Trial, false, &mut ())?)
     }
 
     /// Refuses a mount that loads cannot move, and one that leaves the plane of a planar cavity.
     fn check_mount(&self) -> Result<(), BuildError> {
-        let responses = self.container_responses();
-        if self.mount.degrees() > 0 && responses.iter().all(|own| *own == DMat3::ZERO) {
+        let responses = self.state.container_responses();
+        if self.state.mount.degrees() > 0 && responses.iter().all(|own| *own == DMat3::ZERO) {
             return Err(BuildError::ImmovableMount {
-                degrees: self.mount.degrees(),
+                degrees: self.state.mount.degrees(),
             });
         }
-        let cavities = self.model.compartments.len();
+        let cavities = self.state.model.compartments.len();
         for (number, response) in responses.iter().enumerate() {
-            if self.model.compartments[number % cavities]
+            if self.state.model.compartments[number % cavities]
                 .cavity
                 .is_planar()
             {
@@ -343,13 +355,13 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     }
 
     fn check_initial_overlaps(&self, limit: f64) -> Result<(), BuildError> {
-        let view = self.model.view(&self.particles, 0.0);
-        for block in &self.blocks {
+        let view = self.state.view(0.0);
+        for block in &self.neighbours.blocks {
             let mut pairs = block.overlapping_pairs(&view);
             if let Some((overlap, first, second)) = pairs.find(|pair| pair.0 > limit) {
                 return Err(BuildError::InitialOverlap {
-                    first: self.particles.id[first] as usize,
-                    second: self.particles.id[second] as usize,
+                    first: self.state.particles.id[first] as usize,
+                    second: self.state.particles.id[second] as usize,
                     overlap,
                     limit,
                 });
@@ -358,8 +370,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             if let Some((overlap, index, wall)) = walls.find(|wall| wall.0 > limit) {
                 let compartment = view.compartment_of_wall(wall);
                 return Err(BuildError::OutsideCavity {
-                    particle: self.particles.id[index] as usize,
-                    position: self.particles.position.get(index) - compartment.motion.position,
+                    particle: self.state.particles.id[index] as usize,
+                    position: self.state.particles.position.get(index)
+                        - compartment.motion.position,
                     wall: wall - compartment.first_wall,
                     overlap,
                     limit,

@@ -11,17 +11,50 @@ use super::batch::{BATCH_SIZE, Batch};
 use super::report::{report_pairs, report_walls};
 use crate::cavity::Cavity;
 use crate::contact::{Partner, WallLoad};
-use crate::damper::neighbours::{Block, ContactId, HaloForce, NeighbourList};
+use crate::damper::neighbours::{Block, ContactId, NeighbourList, make_room};
 use crate::damper::state::{StateView, scale};
 use crate::law::{ContactLaw, ForceLaw};
 use crate::observer::Observer;
 
-impl<L: ForceLaw> Block<L> {
-    /// Evaluates all contacts of the block, and turns forces and torques on its own particles, for which
-    /// there is room in `sums`, into accelerations; halo_forces of other blocks are not among them. Returns
+/// What a block sends to a particle of a later one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct HaloForce {
+    pub(super) index: u32,
+    pub(super) force: DVec3,
+    pub(super) torque: DVec3,
+}
+
+/// What the forces of a block are evaluated with.
+#[derive(Debug, Clone)]
+pub(super) struct BlockForces<L: ContactLaw> {
+    pub(super) halo_forces: Vec<HaloForce>,
+    /// On each wall, all cavities in turn.
+    pub(super) loads: Vec<WallLoad>,
+    batch: Box<Batch<L>>,
+}
+
+impl<L: ContactLaw> BlockForces<L> {
+    pub(super) fn new(walls: usize) -> Self {
+        Self {
+            halo_forces: Vec::new(),
+            loads: vec![WallLoad::default(); walls],
+            batch: Box::default(),
+        }
+    }
+
+    /// Memory in bytes that is reserved.
+    pub(super) fn reserved_bytes(&self) -> usize {
+        size_of::<HaloForce>() * self.halo_forces.capacity()
+    }
+}
+
+impl<L: ForceLaw> BlockForces<L> {
+    /// Evaluates all contacts of a block, and turns forces and torques on its own particles, for which
+    /// there is room in `sums`, into accelerations; halo forces of other blocks are not among them. Returns
     /// whether all are finite. With `END`, contacts advance their memory to step `view.stamp + 1`.
-    pub(crate) fn evaluate<C: Cavity, O: Observer, const END: bool>(
+    pub(super) fn evaluate<C: Cavity, O: Observer, const END: bool>(
         &mut self,
+        block: &mut Block<L>,
         view: &StateView<'_, C, L>,
         gravity: DVec3,
         sums: (&mut [f64], &mut [f64]),
@@ -32,29 +65,31 @@ impl<L: ForceLaw> Block<L> {
         torque.fill(0.0);
         self.loads.fill(WallLoad::default());
         self.halo_forces.clear();
-        self.clear_results();
-        self.contacts = self.contact_count();
+        make_room(&mut self.halo_forces, block.halo.len());
+        block.clear_results();
+        block.contacts = block.contact_count();
         if view.planar {
             let sums = Sums::<true>::new(force, torque);
-            self.evaluate_lists::<C, O, END, true>(view, gravity, sums, observer)
+            self.evaluate_lists::<C, O, END, true>(block, view, gravity, sums, observer)
         } else {
             let sums = Sums::<false>::new(force, torque);
-            self.evaluate_lists::<C, O, END, false>(view, gravity, sums, observer)
+            self.evaluate_lists::<C, O, END, false>(block, view, gravity, sums, observer)
         }
     }
 
     fn evaluate_lists<C: Cavity, O: Observer, const END: bool, const PLANAR: bool>(
         &mut self,
+        block: &mut Block<L>,
         view: &StateView<'_, C, L>,
         gravity: DVec3,
         mut sums: Sums<'_, PLANAR>,
         observer: &mut O,
     ) -> bool {
-        let base = self.indices.start;
+        let base = block.indices.start;
         let batch = &mut *self.batch;
         let mut deepest = 0.0_f64;
         batch.begin_pairs(view.coefficients.only_radius());
-        let list = &mut self.pairs;
+        let list = &mut block.pairs;
         for run in runs(list.contacts.len()) {
             evaluate_pairs::<C, L, END, PLANAR>(view, list, batch, run.clone());
             deepest = deepest.max(batch.largest_overlap());
@@ -69,7 +104,7 @@ impl<L: ForceLaw> Block<L> {
                 report_pairs(view, list, batch, run, observer);
             }
         }
-        let list = &mut self.halo;
+        let list = &mut block.halo;
         for run in runs(list.contacts.len()) {
             evaluate_pairs::<C, L, END, PLANAR>(view, list, batch, run.clone());
             deepest = deepest.max(batch.largest_overlap());
@@ -77,7 +112,7 @@ impl<L: ForceLaw> Block<L> {
                 let (push, [first, second]) = (batch.push(n), batch.torques(n));
                 let both = [(*i, push, first), (*j, -push, second)];
                 for (index, force, torque) in both {
-                    if self.indices.contains(&(index as usize)) {
+                    if block.indices.contains(&(index as usize)) {
                         sums.add(index as usize - base, force, torque);
                     } else {
                         self.halo_forces.push(HaloForce {
@@ -92,7 +127,7 @@ impl<L: ForceLaw> Block<L> {
                 report_pairs(view, list, batch, run, observer);
             }
         }
-        let list = &mut self.walls;
+        let list = &mut block.walls;
         for run in runs(list.contacts.len()) {
             evaluate_walls::<C, L, END, PLANAR>(view, list, batch, run.clone());
             deepest = deepest.max(batch.largest_overlap());
@@ -105,15 +140,15 @@ impl<L: ForceLaw> Block<L> {
                 self.loads[*wall as usize].react(push, turn, place);
                 if batch.overlap(n) > view.radius[index] {
                     let partner = Partner::Wall(wall - compartment.first_wall);
-                    self.escaped = Some(ContactId { index, partner });
+                    block.escaped = Some(ContactId { index, partner });
                 }
             }
             if END && observer.wants_contacts() {
                 report_walls(view, list, batch, run, observer);
             }
         }
-        self.largest_overlap = deepest;
-        sums.accelerate(view, self.indices.clone(), gravity)
+        block.largest_overlap = deepest;
+        sums.accelerate(view, block.indices.clone(), gravity)
     }
 }
 

@@ -4,10 +4,8 @@
 use super::{ImpulseSolver, SolverStep};
 use crate::cavity::Cavity;
 use crate::contact::{ContactForce, HeldForce, WallLoad};
-use crate::damper::engine::Engine;
-use crate::damper::neighbours::NeighbourList;
-use crate::damper::state::Space;
-use crate::detector::Detector;
+use crate::damper::neighbours::{Block, NeighbourList};
+use crate::damper::state::{Space, State};
 use crate::law::{ImpulseLaw, at_most};
 use crate::mount::Mount;
 use crate::step_error::StepError;
@@ -23,55 +21,60 @@ impl<S: Space> ImpulseSolver<S> {
     }
 }
 
-impl<C: Cavity, L: ImpulseLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
+impl<S: Space> ImpulseSolver<S> {
     /// Turns impulses into accelerations of the particles and loads on the walls, and keeps the forces of
     /// the contacts.
-    pub(super) fn apply<S: Space>(
+    pub(super) fn apply<C: Cavity, L: ImpulseLaw, M: Mount>(
         &mut self,
         step: &SolverStep,
-        solver: &mut ImpulseSolver<S>,
+        state: &mut State<C, L, M>,
+        blocks: &mut [Block<L>],
     ) -> Result<(), StepError> {
-        let [slope, curvature] = self.accelerate(step, solver);
+        let [slope, curvature] = self.accelerate(step, state);
         if step.parameters.energy_bound && slope + curvature > 0.0 {
-            self.bound_energy(step, solver, [slope, curvature]);
+            self.bound_energy(step, state, [slope, curvature]);
         }
         // Not a number times zero is none.
         if !(slope * 0.0 == 0.0 && curvature * 0.0 == 0.0) {
-            self.check_accelerations()?;
+            state.check_accelerations()?;
         }
-        self.load_walls(step, solver);
-        self.store_forces(step, solver);
-        self.accelerate_mount(self.time);
+        self.load_walls(step, state);
+        self.store_forces(step, state.stamp, blocks);
+        state.accelerate_mount(state.time);
         Ok(())
     }
 
-    fn load_walls<S: Space>(&mut self, step: &SolverStep, solver: &ImpulseSolver<S>) {
-        self.wall_loads.fill(WallLoad::default());
-        for number in solver.pairs..solver.constraints.len() {
-            let constraint = &solver.constraints[number];
+    fn load_walls<C: Cavity, L: ImpulseLaw, M: Mount>(
+        &self,
+        step: &SolverStep,
+        state: &mut State<C, L, M>,
+    ) {
+        state.wall_loads.fill(WallLoad::default());
+        for number in self.pairs..self.constraints.len() {
+            let constraint = &self.constraints[number];
             let [index, cavity] = constraint.bodies.map(|body| body as usize);
-            let force = solver.force(number, step.time_step);
+            let force = self.force(number, step.time_step);
             let normal = S::in_space(constraint.normal);
-            let arm = normal * -(constraint.lever * self.particles.radius[index]);
-            let place = solver.predicted.get(index) - solver.containers.each[cavity].origin + arm;
+            let arm = normal * -(constraint.lever * state.particles.radius[index]);
+            let place = self.predicted.get(index) - self.containers.each[cavity].origin + arm;
             let push = normal * force.normal + force.tangential;
-            let wall = solver.infos[number].wall as usize;
-            self.wall_loads[wall].react(push, force.couple, place);
+            let wall = self.infos[number].wall as usize;
+            state.wall_loads[wall].react(push, force.couple, place);
         }
     }
 
     /// Keeps forces in the lists of their contacts, but for those that one solve settles anyway.
-    fn store_forces<S: Space>(&mut self, step: &SolverStep, solver: &ImpulseSolver<S>) {
-        let stamp = self.model.stamp.wrapping_add(1);
-        let mut coupled = solver.coupled.iter().peekable();
-        let mut ends = solver.list_ends.iter();
+    fn store_forces<L: ImpulseLaw>(&self, step: &SolverStep, stamp: u32, blocks: &mut [Block<L>]) {
+        let stamp = stamp.wrapping_add(1);
+        let mut coupled = self.coupled.iter().peekable();
+        let mut ends = self.list_ends.iter();
         let mut keep = |list: &mut NeighbourList<L>| {
             let end = ends.next().map_or(0, |end| *end as u32);
             while let Some(number) = coupled.next_if(|number| **number < end) {
                 let number = *number as usize;
-                if solver.constraints[number].impulse > 0.0 {
-                    let info = &solver.infos[number];
-                    let force = solver.force(number, step.time_step);
+                if self.constraints[number].impulse > 0.0 {
+                    let info = &self.infos[number];
+                    let force = self.force(number, step.time_step);
                     let held = HeldForce {
                         force,
                         load: at_most(force.normal, info.before),
@@ -81,11 +84,11 @@ impl<C: Cavity, L: ImpulseLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 }
             }
         };
-        for block in &mut self.blocks {
+        for block in &mut *blocks {
             keep(&mut block.pairs);
             keep(&mut block.halo);
         }
-        for block in &mut self.blocks {
+        for block in &mut *blocks {
             keep(&mut block.walls);
         }
     }

@@ -3,9 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use crate::cavity::Cavity;
-use crate::damper::engine::Engine;
-use crate::damper::state::Space;
-use crate::detector::Detector;
+use crate::damper::state::{MountCoordinates, Space, State};
 use crate::law::ContactLaw;
 use crate::mount::Mount;
 
@@ -64,13 +62,19 @@ impl<S: Space> Containers<S> {
     }
 }
 
-impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
+impl<S: Space> Containers<S> {
     /// The containers' free velocities over a step of `time_step` (s), and how they yield.
-    pub(super) fn free_containers<S: Space>(&self, time_step: f64, containers: &mut Containers<S>) {
-        let state = &self.mount_state;
-        let degrees = self.mount.degrees();
-        let (position, velocity) = (&state.position[..degrees], &state.velocity[..degrees]);
-        let cavities = self.model.compartments.len();
+    pub(super) fn set_free<C: Cavity, L: ContactLaw, M: Mount>(
+        &mut self,
+        state: &State<C, L, M>,
+        time_step: f64,
+    ) {
+        let MountCoordinates {
+            position, velocity, ..
+        } = &state.mount_coordinates;
+        let degrees = state.mount.degrees();
+        let (position, velocity) = (&position[..degrees], &velocity[..degrees]);
+        let cavities = state.model.compartments.len();
         let Containers {
             each,
             responses,
@@ -78,7 +82,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             rates,
             accelerations,
             loads,
-        } = containers;
+        } = self;
         loads.clear();
         loads.resize(cavities, DVec3::ZERO);
         accelerations.clear();
@@ -89,31 +93,34 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         };
         // Of second order: with the accelerations at the middle of the step.
         let half = 0.5 * time_step;
-        self.mount
-            .accelerate(self.time, position, velocity, loads, accelerations);
+        state
+            .mount
+            .accelerate(state.time, position, velocity, loads, accelerations);
         advance(position, velocity, half, middle);
         advance(velocity, accelerations, half, before);
         let mut rates_under = |loads: &[DVec3], rates: &mut Vec<f64>| {
-            let time = self.time + half;
-            self.mount
+            let time = state.time + half;
+            state
+                .mount
                 .accelerate(time, middle, before, loads, accelerations);
             advance(velocity, accelerations, time_step, rates);
         };
-        let end = self.time + time_step;
+        let end = state.time + time_step;
         let at_end =
-            |rates: &[f64], cavity| self.mount.motion(end, position, rates, cavity).velocity;
+            |rates: &[f64], cavity| state.mount.motion(end, position, rates, cavity).velocity;
 
         rates_under(loads, rates);
         each.clear();
         each.extend(
-            self.model
+            state
+                .model
                 .compartments
                 .iter()
                 .enumerate()
                 .map(|(cavity, compartment)| {
                     let free = at_end(rates, cavity);
                     let velocity_gain =
-                        self.gravity * time_step - (free - compartment.motion.velocity);
+                        state.gravity * time_step - (free - compartment.motion.velocity);
                     Container {
                         velocity: S::vector(free),
                         free: S::vector(free),

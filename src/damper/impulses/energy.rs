@@ -5,28 +5,25 @@ use super::constraint::{ContactConstraint, TURNING};
 use super::prepare::ConstraintInfo;
 use super::{ImpulseSolver, SolverStep};
 use crate::cavity::Cavity;
-use crate::damper::engine::Engine;
-use crate::damper::state::Space;
-use crate::detector::Detector;
+use crate::damper::state::{Space, State};
 use crate::law::{ContactLaw, at_least, at_most};
 use crate::mount::Mount;
 
-impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
+impl<S: Space> ImpulseSolver<S> {
     /// Sets the accelerations that lead to the velocities after the impulses. Returns how the kinetic energy
     /// (J) that impulses add, relative to the containers as they move freely, grows with a part of them: in
     /// proportion, and with the square.
-    pub(super) fn accelerate<S: Space>(
-        &mut self,
+    pub(super) fn accelerate<C: Cavity, L: ContactLaw, M: Mount>(
+        &self,
         step: &SolverStep,
-        solver: &ImpulseSolver<S>,
+        state: &mut State<C, L, M>,
     ) -> [f64; 2] {
         let rate = 1.0 / step.time_step;
-        let gravity = S::vector(self.gravity);
-        let free_gain = S::vector(self.gravity * step.time_step);
+        let gravity = S::vector(state.gravity);
+        let free_gain = S::vector(state.gravity * step.time_step);
         let (mut slope, mut curvature) = (0.0, 0.0);
-        let particles = &mut self.particles;
-        for (compartment, container) in self.model.compartments.iter().zip(&solver.containers.each)
-        {
+        let particles = &mut state.particles;
+        for (compartment, container) in state.model.compartments.iter().zip(&self.containers.each) {
             let indices = compartment.indices.clone();
             let velocity = &S::rows(particles.velocity.flat())[indices.clone()];
             let spin = &S::spin_rows(particles.spin.flat())[indices.clone()];
@@ -36,7 +33,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 &mut S::spin_rows_mut(particles.angular_acceleration.flat_mut())[indices.clone()];
             let before = velocity.iter().zip(spin).zip(radius);
             let after = acceleration.iter_mut().zip(turning);
-            let bodies = solver.bodies[indices].iter();
+            let bodies = self.bodies[indices].iter();
             for ((body, ((velocity, spin), &radius)), (acceleration, turning)) in
                 bodies.zip(before).zip(after)
             {
@@ -53,8 +50,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 curvature += mass * (linear + turned * (1.0 / TURNING));
             }
         }
-        for constraint in &solver.constraints[solver.pairs..] {
-            let container = &solver.containers.each[constraint.bodies[1] as usize];
+        for constraint in &self.constraints[self.pairs..] {
+            let container = &self.containers.each[constraint.bodies[1] as usize];
             let impulse = constraint.so_far().impulse;
             curvature -= S::dot(impulse, container.velocity - container.free);
         }
@@ -64,14 +61,14 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
     /// Makes all impulses of the step smaller by one factor, so that they add no more kinetic energy than
     /// position correction needs; `growth` is as [`accelerate`](Self::accelerate) returned it.
     #[cold]
-    pub(super) fn bound_energy<S: Space>(
+    pub(super) fn bound_energy<C: Cavity, L: ContactLaw, M: Mount>(
         &mut self,
         step: &SolverStep,
-        solver: &mut ImpulseSolver<S>,
+        state: &mut State<C, L, M>,
         growth: [f64; 2],
     ) {
         let [slope, curvature] = growth;
-        let all = solver.constraints.iter().zip(&solver.infos);
+        let all = self.constraints.iter().zip(&self.infos);
         let allowed: f64 = all.map(|(own, info)| correction_work(own, info)).sum();
         if slope + curvature <= allowed {
             return;
@@ -81,8 +78,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         let factor = half + (half * half + allowed / curvature).sqrt();
         let factor = factor.clamp(0.0, 1.0);
 
-        let gravity = self.gravity;
-        let particles = &mut self.particles;
+        let gravity = state.gravity;
+        let particles = &mut state.particles;
         for index in 0..particles.len() {
             let gain = particles.acceleration.get(index) - gravity;
             particles.acceleration.set(index, gravity + gain * factor);
@@ -90,21 +87,21 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             particles.angular_acceleration.set(index, turning * factor);
         }
         let (velocity, spin) = (particles.velocity.rows(), particles.spin.rows());
-        for (index, body) in solver.bodies.iter_mut().enumerate() {
+        for (index, body) in self.bodies.iter_mut().enumerate() {
             let free = S::vector(velocity.get(index) + gravity * step.time_step);
             let turning = S::spin(spin.get(index)) * particles.radius[index];
             body.velocity = free + (body.velocity - free) * factor;
             body.spin = turning + (body.spin - turning) * factor;
         }
-        for container in &mut solver.containers.each {
+        for container in &mut self.containers.each {
             let free = container.free;
             container.velocity = free + (container.velocity - free) * factor;
         }
-        for constraint in &mut solver.constraints {
+        for constraint in &mut self.constraints {
             constraint.impulse *= factor;
             constraint.tangential = constraint.tangential * factor;
         }
-        for rolling in &mut solver.rolling {
+        for rolling in &mut self.rolling {
             rolling.impulse = rolling.impulse * factor;
         }
     }

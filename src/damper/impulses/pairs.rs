@@ -108,7 +108,7 @@ impl<S: Space> ImpulseSolver<S> {
                 let own = if let Some(only) = view.coefficients.only_pair() {
                     only
                 } else {
-                    other = view.pair(list, bodies[n], candidates[n]);
+                    other = list.pair_coefficients(view, bodies[n], candidates[n]);
                     &other
                 };
                 let (constraint, rests) = step.constrain(view.law, own, place, &kinematics, held);
@@ -129,7 +129,7 @@ impl<S: Space> ImpulseSolver<S> {
         let only = view.coefficients.only_pair();
         if only.is_none_or(|own| view.law.rolling_arm(own) > 0.0) {
             self.resist_rolling(step, view, list, start, |constraint, info| {
-                view.pair(list, constraint.bodies, info.candidate)
+                list.pair_coefficients(view, constraint.bodies, info.candidate)
             });
         }
         deepest

@@ -7,10 +7,8 @@ use super::constraint::{ContactConstraint, RollingConstraint, TURNING};
 use super::{ImpulseSolver, SolverStep};
 use crate::cavity::Cavity;
 use crate::contact::{HeldForce, Partner};
-use crate::damper::engine::Engine;
 use crate::damper::neighbours::{Block, ContactId, NeighbourList};
-use crate::damper::state::{Space, StateView};
-use crate::detector::Detector;
+use crate::damper::state::{Space, State, StateView};
 use crate::law::{ImpulseLaw, at_least, at_most};
 use crate::mount::Mount;
 
@@ -121,30 +119,34 @@ impl SolverStep {
     }
 }
 
-impl<C: Cavity, L: ImpulseLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
+impl<S: Space> ImpulseSolver<S> {
     /// Prepares a constraint for each active contact, in the order of pairs and then of walls.
-    pub(super) fn prepare<S: Space>(&mut self, step: &SolverStep, solver: &mut ImpulseSolver<S>) {
-        let view = self.model.view(&self.particles, 0.0);
-        solver.clear();
-        for block in &mut self.blocks {
+    pub(super) fn prepare<C: Cavity, L: ImpulseLaw, M: Mount>(
+        &mut self,
+        step: &SolverStep,
+        state: &State<C, L, M>,
+        blocks: &mut [Block<L>],
+    ) {
+        let view = state.view(0.0);
+        self.clear();
+        for block in &mut *blocks {
             block.clear_results();
-            let before = solver.constraints.len();
+            let before = self.constraints.len();
             for list in [&block.pairs, &block.halo] {
-                let deepest = solver.add_pairs(step, &view, list);
+                let deepest = self.add_pairs(step, &view, list);
                 block.largest_overlap = at_least(deepest, block.largest_overlap);
             }
-            block.contacts += solver.constraints.len() - before;
+            block.contacts += self.constraints.len() - before;
         }
-        solver.pairs = solver.constraints.len();
-        for block in &mut self.blocks {
-            let before = solver.constraints.len();
-            solver.add_walls(step, &view, block);
-            block.contacts += solver.constraints.len() - before;
+        self.pairs = self.constraints.len();
+        for block in &mut *blocks {
+            let before = self.constraints.len();
+            self.add_walls(step, &view, block);
+            block.contacts += self.constraints.len() - before;
         }
-        if !solver.rolling.is_empty() {
-            solver
-                .rolling
-                .resize(solver.constraints.len(), RollingConstraint::default());
+        if !self.rolling.is_empty() {
+            self.rolling
+                .resize(self.constraints.len(), RollingConstraint::default());
         }
     }
 }

@@ -5,9 +5,7 @@ use glam::DVec3;
 use super::{ImpulseSolver, SolverStep};
 use crate::cavity::Cavity;
 use crate::contact::{Contact, Partner, Stored};
-use crate::damper::engine::Engine;
-use crate::damper::state::{Space, surface_velocity};
-use crate::detector::Detector;
+use crate::damper::state::{Space, State, surface_velocity};
 use crate::law::ContactLaw;
 use crate::mount::Mount;
 use crate::observer::{ContactEvent, Observer};
@@ -15,48 +13,48 @@ use crate::observer::{ContactEvent, Observer};
 /// How a body moves at the beginning and at the end of the step: velocity and spin.
 type Motions = [(DVec3, DVec3); 2];
 
-impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
+impl<S: Space> ImpulseSolver<S> {
     /// Tells `observer` of every contact that was given an impulse.
-    pub(super) fn report<S: Space, O: Observer>(
+    pub(super) fn report<C: Cavity, L: ContactLaw, M: Mount, O: Observer>(
         &self,
         step: &SolverStep,
-        solver: &ImpulseSolver<S>,
+        state: &State<C, L, M>,
         observer: &mut O,
     ) {
-        for number in 0..solver.constraints.len() {
-            if solver.constraints[number].impulse > 0.0 {
-                observer.contact(&self.event(step, solver, number));
+        for number in 0..self.constraints.len() {
+            if self.constraints[number].impulse > 0.0 {
+                observer.contact(&self.event(step, state, number));
             }
         }
     }
 
-    fn event<S: Space>(
+    fn event<C: Cavity, L: ContactLaw, M: Mount>(
         &self,
         step: &SolverStep,
-        solver: &ImpulseSolver<S>,
+        state: &State<C, L, M>,
         number: usize,
     ) -> ContactEvent {
-        let particles = &self.particles;
-        let constraint = &solver.constraints[number];
+        let particles = &state.particles;
+        let constraint = &self.constraints[number];
         let [index, other] = constraint.bodies.map(|body| body as usize);
         let motions = |index: usize| -> Motions {
-            let body = &solver.bodies[index];
+            let body = &self.bodies[index];
             let spin = S::spin_in_space(body.spin) / particles.radius[index];
             let before = (particles.velocity.get(index), particles.spin.get(index));
             [before, (S::in_space(body.velocity), spin)]
         };
         let (cavity, partner, radii, others);
-        if number < solver.pairs {
-            cavity = self.model.cavity_of(index);
+        if number < self.pairs {
+            cavity = state.model.cavity_of(index);
             partner = Partner::Particle(particles.id[other] as usize);
             radii = [particles.radius[index], particles.radius[other]];
             others = motions(other);
         } else {
             cavity = other;
-            let compartment = &self.model.compartments[cavity];
-            partner = Partner::Wall(solver.infos[number].wall - compartment.first_wall);
+            let compartment = &state.model.compartments[cavity];
+            partner = Partner::Wall(self.infos[number].wall - compartment.first_wall);
             radii = [particles.radius[index], 0.0];
-            let after = S::in_space(solver.containers.each[cavity].velocity);
+            let after = S::in_space(self.containers.each[cavity].velocity);
             others = [compartment.motion.velocity, after].map(|velocity| (velocity, DVec3::ZERO));
         }
         let normal = S::in_space(constraint.normal);
@@ -76,7 +74,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             partner,
             cavity,
             contact,
-            force: solver.force(number, step.time_step),
+            force: self.force(number, step.time_step),
             stored: Stored::default(),
             working_velocity: 0.5 * (velocity + left),
             working_spin: 0.5 * (spin + spin_left),

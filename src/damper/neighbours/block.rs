@@ -10,8 +10,7 @@ use glam::DVec3;
 
 use super::list::{ContactRecord, NeighbourList};
 use crate::cavity::Cavity;
-use crate::contact::{Partner, WallLoad};
-use crate::damper::forces::Batch;
+use crate::contact::Partner;
 use crate::damper::state::{Rows, StateView};
 use crate::law::{ContactLaw, ContactMemory};
 
@@ -36,12 +35,13 @@ pub(crate) const fn room_for(particles: usize) -> usize {
     if particles < BLOCK { 4 * particles } else { 0 }
 }
 
-/// What a block sends to a particle of a later one.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct HaloForce {
-    pub(crate) index: u32,
-    pub(crate) force: DVec3,
-    pub(crate) torque: DVec3,
+/// Blocks for `count` particles.
+pub(crate) fn make_blocks<L: ContactLaw>(count: usize) -> Vec<Block<L>> {
+    let size = block_size(count);
+    (0..count)
+        .step_by(size)
+        .map(|start| Block::new(start..count.min(start + size)))
+        .collect()
 }
 
 /// The particle and the partner of the deepest contact, or of a contact that must not be.
@@ -58,6 +58,8 @@ pub(crate) struct Listing<'a, C, L: ContactLaw> {
     pub(crate) rows: &'a [u32],
     /// Where each particle is in its container's frame.
     pub(crate) local: &'a [DVec3],
+    /// Gap in m up to which candidates are listed, besides the margin.
+    pub(crate) listed_distance: f64,
 }
 
 /// What contacts remember: of pairs, and of walls.
@@ -73,23 +75,20 @@ pub(crate) fn reserved_by<M>(memories: &[Vec<ContactRecord<M>>; 2]) -> usize {
     size_of::<ContactRecord<M>>() * memories.iter().map(Vec::capacity).sum::<usize>()
 }
 
-/// A run of particles with its candidates, its scratch, and what its last evaluation found.
+/// A run of particles with its candidates, and what its last evaluation found.
 #[derive(Debug, Clone)]
 pub(crate) struct Block<L: ContactLaw> {
     pub(crate) indices: Range<usize>,
     pub(crate) pairs: NeighbourList<L>,
     pub(crate) halo: NeighbourList<L>,
     pub(crate) walls: NeighbourList<L>,
-    pub(crate) halo_forces: Vec<HaloForce>,
-    pub(crate) loads: Vec<WallLoad>,
     pub(crate) contacts: usize,
     pub(crate) largest_overlap: f64,
     pub(crate) escaped: Option<ContactId>,
-    pub(crate) batch: Box<Batch<L>>,
 }
 
 impl<L: ContactLaw> Block<L> {
-    pub(crate) fn new(indices: Range<usize>, walls: usize) -> Self {
+    pub(crate) fn new(indices: Range<usize>) -> Self {
         let (mut pairs, mut near) = (NeighbourList::default(), NeighbourList::default());
         pairs.reserve_all(room_for(indices.len()));
         near.reserve_all(room_for(indices.len()));
@@ -98,12 +97,9 @@ impl<L: ContactLaw> Block<L> {
             pairs,
             halo: NeighbourList::default(),
             walls: near,
-            halo_forces: Vec::new(),
-            loads: vec![WallLoad::default(); walls],
             contacts: 0,
             largest_overlap: 0.0,
             escaped: None,
-            batch: Box::default(),
         }
     }
 
@@ -113,6 +109,7 @@ impl<L: ContactLaw> Block<L> {
         &mut self,
         view: &StateView<'_, C, L>,
         reference: Rows<'_>,
+        prediction_distance: f64,
     ) -> bool {
         let mut trusted = true;
         for compartment in view.compartments {
@@ -128,12 +125,12 @@ impl<L: ContactLaw> Block<L> {
         }
         for list in [&mut self.pairs, &mut self.halo] {
             if view.planar {
-                find_pairs::<C, L, true>(view, list);
+                find_pairs::<C, L, true>(view, list, prediction_distance);
             } else {
-                find_pairs::<C, L, false>(view, list);
+                find_pairs::<C, L, false>(view, list, prediction_distance);
             }
         }
-        let prediction_distance = view.prediction_distance;
+
         self.walls.find(|i, wall, touching| {
             let position = view.position.get(i);
             view.wall_point(wall, position).distance < touching + prediction_distance
@@ -200,7 +197,6 @@ impl<L: ContactLaw> Block<L> {
             .map(NeighbourList::reserved_bytes)
             .iter()
             .sum::<usize>()
-            + size_of::<HaloForce>() * self.halo_forces.capacity()
     }
 }
 
@@ -209,9 +205,10 @@ impl<L: ContactLaw> Block<L> {
 fn find_pairs<C, L: ContactLaw, const PLANAR: bool>(
     view: &StateView<'_, C, L>,
     list: &mut NeighbourList<L>,
+    prediction_distance: f64,
 ) {
     let position = view.position.polar::<PLANAR>(view.radius.len());
-    let prediction_distance = view.prediction_distance;
+
     list.find(|i, j, touching| {
         let limit = touching + prediction_distance;
         position.get(i).distance_squared(position.get(j as usize)) < limit * limit

@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use crate::damper::state::Coefficients;
+use crate::damper::state::{Coefficients, StateView};
 use crate::law::{ContactLaw, ContactMemory, LawError};
 
 /// Two bodies that might touch.
@@ -301,6 +301,19 @@ impl<L: ContactLaw> NeighbourList<L> {
     #[inline(always)]
     pub(crate) fn prepared(&self, candidate: u32) -> Option<&L::Coefficients> {
         self.prepared.get(candidate as usize)
+    }
+
+    /// The coefficients of two particles that are a candidate.
+    #[inline(always)]
+    pub(crate) fn pair_coefficients<C>(
+        &self,
+        view: &StateView<'_, C, L>,
+        bodies: [u32; 2],
+        candidate: u32,
+    ) -> L::Coefficients {
+        let [first, second] = bodies.map(|index| view.species[index as usize]);
+        view.coefficients
+            .pair(first, second, self.prepared(candidate))
     }
 
     /// What a candidate remembers that touched at the end of step `stamp`, if contacts remember anything.

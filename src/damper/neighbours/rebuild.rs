@@ -58,7 +58,12 @@ impl<L: ContactLaw> Block<L> {
 
     /// Fills the empty lists.
     fn list<C: Cavity>(&mut self, listing: &Listing<'_, C, L>, partners: &mut [u32]) {
-        let Listing { view, rows, local } = *listing;
+        let Listing {
+            view,
+            rows,
+            local,
+            listed_distance,
+        } = *listing;
         let begin = rows[self.indices.start];
         let beyond = |partner: &&u32| **partner as usize >= self.indices.end;
         let halo = partners.iter().filter(beyond).count();
@@ -93,7 +98,7 @@ impl<L: ContactLaw> Block<L> {
                 let touching = view.radius[index];
                 for wall in 0..compartment.cavity.walls() {
                     let point = compartment.cavity.wall(wall, local[index]);
-                    if point.distance < touching + view.listed_distance + margin {
+                    if point.distance < touching + listed_distance + margin {
                         self.walls
                             .push(index as u32, compartment.first_wall + wall, touching);
                     }
@@ -107,7 +112,6 @@ impl<L: ContactLaw> Block<L> {
         self.pairs.finish(stamp, pairs, pair);
         self.halo.finish(stamp, pairs, pair);
         self.walls.finish(stamp, walls, |index, wall| (index, wall));
-        make_room(&mut self.halo_forces, self.halo.len());
     }
 
     /// Asks the law for the pairs of finished lists.

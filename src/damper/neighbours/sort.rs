@@ -6,10 +6,11 @@
 
 use glam::DVec3;
 
+use super::Neighbours;
 use super::block::BLOCK;
 use super::list::ContactRecord;
 use crate::cavity::Cavity;
-use crate::damper::engine::Engine;
+use crate::damper::state::{Particles, State};
 use crate::detector::Detector;
 use crate::law::ContactLaw;
 use crate::mount::Mount;
@@ -19,47 +20,45 @@ use crate::step_error::StepError;
 /// neighbourhoods in some hundred steps, and a sort costs as much as a few steps.
 const INTERVAL: u32 = 1000;
 
-impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
+impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
     /// Sorts a large bed if it is time to.
-    pub(crate) fn sort_in_time(&mut self) -> Result<(), StepError> {
-        if self.particles.len() <= BLOCK {
+    pub(crate) fn sort_in_time<C: Cavity, M: Mount>(
+        &mut self,
+        state: &mut State<C, L, M>,
+    ) -> Result<(), StepError> {
+        if state.particles.len() <= BLOCK {
             return Ok(());
         }
         if self.since_sort < INTERVAL {
             self.since_sort += 1;
             return Ok(());
         }
-        let mut memory = self.history();
-        let number = self.particles.id.clone();
-        self.sort();
+        let mut memory = self.history(state.stamp);
+        let number = state.particles.id.clone();
+        self.sort(state);
         for contact in memory.iter_mut().flatten() {
-            contact.first = self.moved(&number, contact.first);
+            contact.first = moved(&state.particles, &number, contact.first);
         }
         for contact in &mut memory[0] {
-            contact.second = self.moved(&number, contact.second);
+            contact.second = moved(&state.particles, &number, contact.second);
         }
         let [pairs, walls] = &mut memory;
         pairs.sort_unstable_by_key(ContactRecord::pair);
         walls.sort_unstable_by_key(ContactRecord::wall);
-        self.list(Some(&memory))
-    }
-
-    /// The index of the particle that was at `index` when the columns held the particles of `number`.
-    fn moved(&self, number: &[u32], index: u32) -> u32 {
-        self.particles.index_of[number[index as usize] as usize]
+        self.list(state, Some(&memory))
     }
 
     /// Sorts a large bed. Candidates have to be listed anew.
-    pub(crate) fn sort(&mut self) {
+    pub(crate) fn sort<C: Cavity, M: Mount>(&mut self, state: &mut State<C, L, M>) {
         self.since_sort = 0;
-        let particles = &self.particles;
+        let particles = &state.particles;
         if particles.len() <= BLOCK {
             return;
         }
         let largest = particles.radius.iter().copied().fold(0.0, f64::max);
         let density = 0.5 / largest;
         let mut order: Vec<(u64, u32)> = Vec::with_capacity(particles.len());
-        for compartment in &self.model.compartments {
+        for compartment in &state.model.compartments {
             let [lower, _] = compartment.cavity.bounds();
             let lower = lower + compartment.motion.position;
             let start = order.len();
@@ -70,8 +69,13 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             order[start..].sort_unstable();
         }
         let number: Vec<u32> = order.iter().map(|(_, number)| *number).collect();
-        self.particles.rearrange(&number);
+        state.particles.rearrange(&number);
     }
+}
+
+/// The index of the particle that was at `index` when the columns held the particles of `number`.
+fn moved(particles: &Particles, number: &[u32], index: u32) -> u32 {
+    particles.index_of[number[index as usize] as usize]
 }
 
 /// Number of a cell along Morton's curve, 21 bits to each of the three coordinates. Negative

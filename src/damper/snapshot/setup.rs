@@ -41,26 +41,30 @@ impl Setup {
         M: Mount,
         D: Detector,
     {
-        let model = &engine.model;
+        let model = &engine.state.model;
         let mut cavities = Digest::default();
         let mut mount = Digest::default();
         cavities.word(model.compartments.len() as u64);
-        mount.word(engine.mount.degrees() as u64);
-        for response in engine.container_responses() {
+        mount.word(engine.state.mount.degrees() as u64);
+        for response in engine.state.container_responses() {
             mount.numbers(&response.to_cols_array());
         }
         for compartment in &model.compartments {
             add_cavity(&mut cavities, &compartment.cavity);
         }
         if model.compartments.len() > 1 {
-            cavities.words(&engine.particles.id);
+            cavities.words(&engine.state.particles.id);
         }
         Self {
             time_step,
-            gravity: engine.gravity,
-            kinds: of_kinds(&engine.particles.kinds),
+            gravity: engine.state.gravity,
+            kinds: of_kinds(&engine.state.particles.kinds),
             cavities,
-            law: of_law(&model.law, &model.coefficients, &engine.particles.kinds),
+            law: of_law(
+                &model.law,
+                &model.coefficients,
+                &engine.state.particles.kinds,
+            ),
             mount,
         }
     }

@@ -64,7 +64,8 @@ impl Clock {
         digest.word(self.steps);
     }
 
-    pub(crate) const fn advance(&mut self, step: f64) {
+    /// Goes on by a step (s), and returns the time.
+    pub(crate) const fn advance(&mut self, step: f64) -> f64 {
         if step.to_bits() == self.step.to_bits() {
             self.steps += 1;
         } else {
@@ -72,6 +73,7 @@ impl Clock {
             self.steps = 1;
             self.step = step;
         }
+        self.time()
     }
 
     /// Cuts a host's `interval` (s) into steps of `longest` (s) or less.

@@ -10,7 +10,6 @@ use glam::DVec3;
 use super::coefficients::Coefficients;
 use super::vectors::Rows;
 use crate::cavity::{Cavity, WallPoint};
-use crate::damper::neighbours::NeighbourList;
 use crate::law::ContactLaw;
 
 /// When in a step contacts are evaluated.
@@ -46,9 +45,6 @@ pub(crate) struct StateView<'a, C, L: ContactLaw> {
     pub(crate) stamp: u32,
     /// Whether everything moves in the plane z = 0.
     pub(crate) planar: bool,
-    /// As in [`Model`].
-    pub(crate) prediction_distance: f64,
-    pub(crate) listed_distance: f64,
 }
 
 /// What a contact needs to know of a particle.
@@ -70,18 +66,6 @@ impl<C: Cavity, L: ContactLaw> StateView<'_, C, L> {
             spin: self.spin.get(index),
             radius: self.radius[index],
         }
-    }
-
-    /// The coefficients of two particles that are a candidate of a list.
-    #[inline(always)]
-    pub(crate) fn pair(
-        &self,
-        list: &NeighbourList<L>,
-        bodies: [u32; 2],
-        place: u32,
-    ) -> L::Coefficients {
-        let [first, second] = bodies.map(|index| self.species[index as usize]);
-        self.coefficients.pair(first, second, list.prepared(place))
     }
 
     /// Number of the compartment that a particle is in.

@@ -1,7 +1,8 @@
-//! A step of an engine, as an integrator sees it.
+//! What a step shows to an integrator.
 
 use crate::cavity::Cavity;
 use crate::damper::engine::Engine;
+use crate::damper::state::Clock;
 use crate::detector::Detector;
 use crate::integrator::{Columns, Motions, Stage, System};
 use crate::law::{ContactLaw, LawKind};
@@ -9,16 +10,33 @@ use crate::mount::Mount;
 use crate::observer::Observer;
 use crate::step_error::StepError;
 
-/// One step of an engine, as an integrator sees it.
-pub(crate) struct Step<'a, C, L: ContactLaw, M, D, O> {
-    pub(crate) engine: &'a mut Engine<C, L, M, D>,
-    pub(crate) observer: &'a mut O,
-    pub(crate) begin: f64,
+/// The engine in one step, as an integrator sees it.
+pub(super) struct SteppedSystem<'a, C, L: ContactLaw, M, D, O> {
+    engine: &'a mut Engine<C, L, M, D>,
+    observer: &'a mut O,
+    /// When the step began, s.
+    begin: f64,
     /// Whether nothing has been evaluated in this step yet.
-    pub(crate) fresh: bool,
+    fresh: bool,
 }
 
-impl<C, L, M, D, O> System for Step<'_, C, L, M, D, O>
+impl<'a, C, L: ContactLaw, M, D, O> SteppedSystem<'a, C, L, M, D, O> {
+    /// At the beginning of a step.
+    pub(super) const fn new(
+        engine: &'a mut Engine<C, L, M, D>,
+        observer: &'a mut O,
+        clock: &Clock,
+    ) -> Self {
+        Self {
+            begin: clock.time(),
+            engine,
+            observer,
+            fresh: true,
+        }
+    }
+}
+
+impl<C, L, M, D, O> System for SteppedSystem<'_, C, L, M, D, O>
 where
     C: Cavity,
     L: ContactLaw,
@@ -27,13 +45,12 @@ where
     O: Observer,
 {
     fn motions(&mut self) -> Motions<'_> {
-        let particles = &mut self.engine.particles;
-        let mount = &mut self.engine.mount_state;
-        let scratch = &self.engine.scratch;
+        let state = &mut self.engine.state;
+        let (particles, mount) = (&mut state.particles, &mut state.mount_coordinates);
         let [previous, turning] = if L::Kind::HELD {
             [&particles.acceleration, &particles.angular_acceleration]
         } else {
-            scratch.previous.each_ref()
+            state.previous.particles.each_ref()
         };
         Motions {
             translation: Columns {
@@ -52,7 +69,7 @@ where
                 position: &mut mount.position,
                 velocity: &mut mount.velocity,
                 acceleration: &mount.acceleration,
-                previous: &scratch.previous_of_mount,
+                previous: &state.previous.mount,
             },
         }
     }

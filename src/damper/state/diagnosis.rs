@@ -2,12 +2,10 @@
 
 use crate::step_error::Cause;
 
+use super::State;
 use crate::cavity::Cavity;
-use crate::damper::engine::Engine;
-use crate::detector::Detector;
 use crate::law::ContactLaw;
 use crate::mount::{Motion, Mount};
-use crate::observer::Observable;
 use crate::step_error::StepError;
 
 /// How far a container may leave the course that it begins a step with, in radii of the smallest particle.
@@ -32,14 +30,12 @@ const STILL: f64 = 1e-4;
 pub(crate) struct StepStart {
     /// Motions of the containers.
     motions: Vec<Motion>,
-    /// Length of the step, s.
-    time_step: f64,
 }
 
-impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
-    /// Keeps how a step of `time_step` (s) begins.
-    pub(crate) fn note_start(&mut self, time_step: f64) {
-        self.step_start.time_step = time_step;
+impl<C: Cavity, L: ContactLaw, M: Mount> State<C, L, M> {
+    /// Begins a step of `time_step` (s).
+    pub(crate) fn begin_step(&mut self, time_step: f64) {
+        self.time_step = time_step;
         self.step_start.motions.clear();
         let motions = self
             .model
@@ -47,6 +43,11 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             .iter()
             .map(|compartment| compartment.motion);
         self.step_start.motions.extend(motions);
+    }
+
+    /// Ends a step.
+    pub(crate) const fn end_step(&mut self) {
+        self.stamp = self.stamp.wrapping_add(1);
     }
 
     /// What may be behind particles out of place.
@@ -81,11 +82,15 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
     /// The coordinate of the mount that moves fastest.
     fn runaway(&self) -> Option<Cause> {
-        let rates = self.rates().iter().enumerate();
+        let rates = self
+            .mount_coordinates
+            .own_rates(self.mount.degrees())
+            .iter()
+            .enumerate();
         let (coordinate, rate) = rates.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
         Some(Cause::Mount {
             coordinate,
-            value: self.coordinates()[coordinate],
+            value: self.mount_coordinates.own(self.mount.degrees())[coordinate],
             rate: *rate,
         })
     }
@@ -115,7 +120,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             .zip(&self.step_start.motions)
             .enumerate()
         {
-            let course = start.velocity * self.step_start.time_step;
+            let course = start.velocity * self.time_step;
             let off = (compartment.motion.position - start.position - course).length();
             if off > limit {
                 let way = compartment.motion.position.distance(start.position);
@@ -138,7 +143,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             return Ok(());
         }
         let radius = self.particles.smallest_radius.min(f64::MAX);
-        let time_step = self.step_start.time_step;
+        let time_step = self.time_step;
         for (cavity, (compartment, start)) in self
             .model
             .compartments

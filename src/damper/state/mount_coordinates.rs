@@ -7,13 +7,13 @@ use crate::mount::Mount;
 /// particles lost, whatever the integrator.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct MountState {
+pub(crate) struct MountCoordinates {
     pub(crate) position: Vec<f64>,
     pub(crate) velocity: Vec<f64>,
     pub(crate) acceleration: Vec<f64>,
 }
 
-impl MountState {
+impl MountCoordinates {
     pub(crate) fn new<M: Mount>(mount: &M, cavities: usize) -> Self {
         let degrees = mount.degrees();
         let mut state = Self {
@@ -26,5 +26,15 @@ impl MountState {
             &mut state.velocity[..degrees],
         );
         state
+    }
+
+    /// The mount's own coordinates, of which there are `degrees`.
+    pub(crate) fn own(&self, degrees: usize) -> &[f64] {
+        &self.position[..degrees]
+    }
+
+    /// Their rates.
+    pub(crate) fn own_rates(&self, degrees: usize) -> &[f64] {
+        &self.velocity[..degrees]
     }
 }
