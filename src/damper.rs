@@ -17,6 +17,7 @@ use state::Clock;
 
 mod builder;
 mod drive;
+mod energies;
 mod engine;
 mod forces;
 mod impulses;

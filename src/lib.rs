@@ -149,10 +149,10 @@ pub use law::{
     RestitutionImpulse, SolverParameters, SweepOrder, TangentialSpring,
 };
 pub use material::{Interaction, Material, MaterialId, Materials};
-pub use mount::{Driven, Motion, Mount, MountEnergy, Prescribed, SingleDof};
+pub use mount::{Driven, Motion, Mount, MountEnergy, Prescribed, Shaker, SingleDof};
 pub use observer::{
-    BedRegime, ContactEvent, Energies, EnergyLedger, Extremes, Losses, Observer, StepReport,
-    WallRecord, WallRecorder,
+    Account, BedRegime, ComplexPower, ContactEvent, Energies, EnergyLedger, EventLog, Extremes,
+    Harmonics, LoggedContact, Losses, Observer, Phasor, StepReport, WallRecord, WallRecorder,
 };
 pub use particle::Particle;
 pub use response::ResponseCurve;

@@ -111,6 +111,25 @@ impl Material {
         }
     }
 
+    /// The same material with the Young's modulus with which two bodies of it, of effective radius r* (m),
+    /// have the force constant k = `stiffness` (N/m^(3/2)): E = 3 k (1 - nu^2)/(2 sqrt r*), from k =
+    /// 4/3 E* sqrt r* with E* = E/(2 (1 - nu^2)). [`ElasticImpact::lasting`](crate::ElasticImpact::lasting)
+    /// gives the stiffness for a wanted duration of contact.
+    ///
+    /// # Errors
+    /// If a number is not positive and finite.
+    pub fn with_contact_stiffness(
+        self,
+        stiffness: f64,
+        effective_radius: f64,
+    ) -> Result<Self, ValueError> {
+        Bound::Positive.check("contact stiffness (N/m^1.5)", stiffness)?;
+        Bound::Positive.check("effective radius (m)", effective_radius)?;
+        let ratio = self.poissons_ratio;
+        let modulus = 1.5 * stiffness * (1.0 - ratio * ratio) / effective_radius.sqrt();
+        Self::new(modulus, ratio, self.interaction)
+    }
+
     /// Effective modulus E* of a contact of two materials, in Pa:
     /// 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 (Hertz; the paper's Eqs (6) and (7)).
     #[must_use]

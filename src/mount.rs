@@ -5,9 +5,11 @@ use glam::{DMat3, DVec3};
 use crate::excitation::Jump;
 
 mod driven;
+mod shaker;
 mod single_dof;
 
 pub use driven::{Driven, Prescribed};
+pub use shaker::Shaker;
 pub use single_dof::SingleDof;
 
 /// Position and velocity of a container (translation only), fixed frame.
@@ -67,8 +69,8 @@ impl MountEnergy {
 /// with the particles, or a prescribed motion (no coordinates).
 ///
 /// # Using
-/// [`SingleDof`] is the oscillator of the paper's Eq. (1). [`Driven`] is moved by a host program, or
-/// by a function of time.
+/// [`SingleDof`] is the oscillator of the paper's Eq. (1). [`Driven`] is moved by a host program,
+/// [`Shaker`] by a signal along an axis, [`Prescribed`] by any function of time.
 ///
 /// # Implementing
 /// 1. [`degrees`](Self::degrees) coordinates, in units of the mount's choice; slices passed in have

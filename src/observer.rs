@@ -4,14 +4,20 @@ use glam::DVec3;
 
 use crate::contact::{Contact, ContactForce, Partner, Stored};
 
+mod complex_power;
 mod energy;
+mod events;
 mod extremes;
+mod harmonics;
 mod regime;
 mod step_report;
 mod walls;
 
-pub use energy::{Energies, EnergyLedger, Losses};
+pub use complex_power::{ComplexPower, Phasor};
+pub use energy::{Account, Energies, EnergyLedger, Losses};
+pub use events::{EventLog, LoggedContact};
 pub use extremes::Extremes;
+pub use harmonics::Harmonics;
 pub use regime::BedRegime;
 pub(crate) use step_report::Observable;
 pub use step_report::StepReport;
@@ -49,7 +55,7 @@ pub struct ContactEvent {
 ///
 /// # Using
 /// Pass one to [`Damper::step_watched`](crate::Damper::step_watched). The crate has an
-/// [`EnergyLedger`], a [`WallRecorder`], [`Extremes`] and [`BedRegime`].
+/// [`EnergyLedger`], [`Harmonics`], an [`EventLog`], a [`WallRecorder`], [`Extremes`] and [`BedRegime`].
 ///
 /// # Implementing
 /// 1. [`wants_contacts`](Self::wants_contacts) is constant over a step. Only if it is true,

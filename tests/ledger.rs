@@ -2,10 +2,12 @@
 
 use particle_damper::excitation::Harmonic;
 use particle_damper::glam::{DVec3, dvec3};
+use particle_damper::law::LawKind;
 use particle_damper::{
-    BedRegime, Cavity, ContactLaw, Damper, EnergyLedger, Extremes, Filling, HertzMindlin,
-    HertzTsuji, Integrator, Material, Motion, Particle, Prescribed, RestitutionImpulse,
-    RungeKutta4, SingleDof, Slot, VelocityVerlet, WallRecorder,
+    BedRegime, Cavity, ContactLaw, Cuboid, Damper, EnergyLedger, EventLog, Extremes, Filling,
+    Harmonics, HertzMindlin, HertzTsuji, Integrator, Material, Motion, Observer, Particle, Partner,
+    Prescribed, RestitutionImpulse, RungeKutta4, Shaker, SingleDof, Slot, StepReport,
+    VelocityVerlet, WallRecorder,
 };
 
 const FREQUENCY: f64 = 6.0;
@@ -275,4 +277,163 @@ fn walls_carry_the_weight_of_a_bed_at_rest() {
             assert!(regime.temperature() < 1e-8, "{regime:?}");
         }
     }
+}
+
+#[test]
+fn accounts_closed_every_period_add_up_to_the_one_that_stays_open() {
+    let cavity = Slot::paper();
+    let bed = Filling::new(1).with(20, Particle::new(3e-3, 0.2e-3).unwrap());
+    let force = Harmonic::new(0.25, FREQUENCY).unwrap();
+    let mut damper = Damper::builder(cavity, HertzTsuji::new(acrylic()))
+        .mount(SingleDof::paper().excited_by(force))
+        .particles(bed.fill(&cavity).unwrap())
+        .time_step(1.0 / (FREQUENCY * 8000.0))
+        .build()
+        .unwrap();
+    let (mut whole, mut each) = (EnergyLedger::new(), EnergyLedger::new());
+    let (mut input, mut losses, mut change) = (0.0, 0.0, 0.0);
+    for step in 0..=32_000 {
+        damper.step_watched(&mut (&mut whole, &mut each)).unwrap();
+        if step % 8000 == 0 {
+            let account = each.close();
+            assert!(account.residual().abs() < 1e-6 * account.input.max(1e-3));
+            input += account.input;
+            losses += account.losses.total() + account.structure_loss;
+            change += account.change();
+        }
+    }
+    let all = whole.account();
+    assert!(all.losses.total() > 1e-4);
+    assert!((input - all.input).abs() < 1e-12 * all.input);
+    assert!((losses - all.losses.total() - all.structure_loss).abs() < 1e-12 * losses);
+    assert!((change - all.change()).abs() < 1e-12 * input);
+    assert!(each.account().input.abs() < f64::MIN_POSITIVE);
+}
+
+/// The energies of a damper are those that its ledger finds at the end of the step, contacts included.
+fn energies_agree<L: ContactLaw>(law: L, time_step: f64) {
+    let cavity = Slot::paper();
+    let bed = Filling::new(1).with(40, Particle::new(3e-3, 0.2e-3).unwrap());
+    let mut damper = Damper::builder(cavity, law)
+        .mount(SingleDof::paper().released_from(0.01, 0.0).unwrap())
+        .particles(bed.fill(&cavity).unwrap())
+        .time_step(time_step)
+        .build()
+        .unwrap();
+    let (mut ledger, mut stored) = (EnergyLedger::new(), 0.0_f64);
+    for step in 1..=20_000 {
+        damper.step_watched(&mut ledger).unwrap();
+        if step % 100 == 0 {
+            let (own, seen) = (damper.energies(), ledger.energies());
+            assert!(
+                (own.total() - seen.total()).abs() < 1e-15,
+                "{own:?} {seen:?}"
+            );
+            assert!((own.contacts - seen.contacts).abs() <= 1e-12 * seen.contacts);
+            stored = stored.max(own.contacts);
+        }
+    }
+    assert_eq!(stored > 0.0, !<L::Kind as LawKind<L>>::HELD);
+    let snapshot = damper.snapshot();
+    let before = damper.energies();
+    damper.restore(&snapshot).unwrap();
+    assert!((damper.energies().contacts - before.contacts).abs() <= 1e-12 * before.contacts);
+}
+
+#[test]
+fn a_damper_tells_its_energies_between_steps() {
+    energies_agree(HertzTsuji::new(acrylic()), 2e-5);
+    energies_agree(HertzMindlin::new(acrylic()), 1.5e-5);
+    energies_agree(RestitutionImpulse::new(acrylic()), 1e-4);
+}
+
+/// Sums up the impulses of the steps that it sees.
+#[derive(Default)]
+struct Impulses(DVec3);
+
+impl Observer for Impulses {
+    fn step(&mut self, report: &StepReport<'_>) {
+        self.0 += report.impulse(0).unwrap();
+        assert_eq!(report.impulse(1), None);
+    }
+}
+
+#[test]
+fn steps_report_the_impulse_on_the_container_also_within_a_drive() {
+    let cavity = Cuboid::new(DVec3::splat(0.03)).unwrap();
+    let bed = Filling::new(1).with(20, Particle::new(2e-3, 0.1e-3).unwrap());
+    let mut damper = Damper::builder(cavity, RestitutionImpulse::new(acrylic()))
+        .particles(bed.fill(&cavity).unwrap())
+        .time_step(1e-4)
+        .build()
+        .unwrap();
+    let mut place = 0.0;
+    for number in 0..200 {
+        let velocity = if number % 20 < 10 { 0.4 } else { -0.4 };
+        place += velocity * 7e-4;
+        let end = Motion {
+            position: DVec3::X * place,
+            velocity: DVec3::X * velocity,
+        };
+        let mut impulses = Impulses::default();
+        let reaction = damper.drive_watched(end, 7e-4, &mut impulses).unwrap();
+        assert!((impulses.0 - reaction.impulse).length() < 1e-15);
+    }
+}
+
+/// A bed that stays on the floor, or is carried along by friction, moves like part of the container.
+fn rides<L: ContactLaw + Clone>(law: &L, time_step: f64) {
+    let cavity = Slot::paper();
+    let bed = Filling::new(3).with(30, Particle::new(3e-3, 0.2e-3).unwrap());
+    let (amplitude, frequency) = (0.5 * 9.81 / (20.0 * std::f64::consts::TAU).powi(2), 20.0);
+    let steps = (1.0 / (frequency * time_step)).round();
+    let mut damper = Damper::builder(cavity, law.clone())
+        .mount(Shaker::new(DVec3::Y, Harmonic::new(amplitude, frequency).unwrap()).unwrap())
+        .particles(bed.fill(&cavity).unwrap())
+        .time_step(1.0 / (frequency * steps))
+        .build()
+        .unwrap();
+    let mut watched = (Harmonics::new(frequency).unwrap(), EventLog::new());
+    for step in 0..30 * steps as usize {
+        if step == 20 * steps as usize {
+            watched.0.reset();
+        }
+        damper.step_watched(&mut watched).unwrap();
+    }
+    let (harmonics, log) = watched;
+    let power = harmonics.power(0).unwrap();
+    let (mass, speed) = (30.0 * 0.2e-3, std::f64::consts::TAU * frequency * amplitude);
+    assert!((harmonics.cycles() - 10.0).abs() < 1e-9);
+    assert!((power.speed - speed).abs() < 1e-9 * speed);
+    assert!(
+        (power.apparent_mass() - mass).abs() < 2e-3 * mass,
+        "{power:?}"
+    );
+    assert!(power.normalised_loss(mass).abs() < 2e-2, "{power:?}");
+    let mean = harmonics.mean_force(0).unwrap();
+    assert!((mean.y - mass * 9.81).abs() < 1e-3 * mass * 9.81, "{mean}");
+    // All walls bear it together.
+    let force = harmonics.force(0).unwrap();
+    let walls = (0..4).map(|wall| harmonics.wall_force(0, wall).unwrap());
+    let (re, im) = walls.fold((DVec3::ZERO, DVec3::ZERO), |sum, wall| {
+        (sum.0 + wall.re, sum.1 + wall.im)
+    });
+    let off = (re - force.re).length() + (im - force.im).length();
+    assert!(off < 1e-3 * force.norm_squared().sqrt(), "{off}");
+    assert!(
+        harmonics.impacts(0, 2).unwrap() < 1.0,
+        "{:?}",
+        harmonics.impacts(0, 2)
+    );
+    assert!(
+        log.open()
+            .any(|contact| contact.partner == Partner::Wall(2))
+    );
+}
+
+#[test]
+fn a_bed_at_rest_on_a_shaken_floor_is_a_rigid_mass() {
+    rides(&HertzTsuji::new(acrylic()), 2e-5);
+    rides(&HertzMindlin::new(acrylic()), 1.5e-5);
+    rides(&RestitutionImpulse::new(acrylic()), 1e-4);
 }

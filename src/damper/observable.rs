@@ -38,6 +38,14 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Observable for Engine<C, L
         self.state.loads.get(cavity).copied()
     }
 
+    fn impulse(&self, cavity: usize) -> Option<DVec3> {
+        let own = 3 * cavity..3 * cavity + 3;
+        let before = self.state.step_start.impulses.get(own.clone())?;
+        let sums = &self.state.mount_coordinates.velocity[self.state.mount.degrees()..];
+        let now = sums.get(own)?;
+        Some(DVec3::from_slice(now) - DVec3::from_slice(before))
+    }
+
     fn walls(&self, cavity: usize) -> u32 {
         let compartment = self.state.model.compartments.get(cavity);
         compartment.map_or(0, |compartment| compartment.cavity.walls())

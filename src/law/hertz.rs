@@ -43,6 +43,52 @@ impl ElasticImpact {
         })
     }
 
+    /// The impact of bodies of effective mass m* (kg) and normal relative speed v (m/s) that lasts for
+    /// `duration` T (s): k = m* sqrt((3.2180655/T)^5/v).
+    ///
+    /// So a stiffness is chosen by the time step that it is to bear: of the bodies'
+    /// [material](crate::Material::with_contact_stiffness), softened. The overlap grows in proportion,
+    /// d = T v/2.9432752: a bed behaves like hard spheres while that is a few hundredths of a radius.
+    ///
+    /// # Errors
+    /// If a number is not positive and finite.
+    ///
+    /// ```
+    /// use particle_damper::{Bodies, Body, ElasticImpact, HertzTsuji, Material, Materials};
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// // Spheres of 3 mm and 0.2 g, softened so that an impact at 1 m/s takes 0.5 ms.
+    /// let impact = ElasticImpact::lasting(0.5e-3, 1e-4, 1.0)?;
+    /// let soft = Material::acrylic().with_contact_stiffness(impact.stiffness(), 1.5e-3)?;
+    /// let sphere = Body::sphere(3e-3, 0.2e-3, Materials::FIRST);
+    /// let pair = HertzTsuji::new(soft).elastic_impact(&Bodies::new(sphere, sphere), 1.0)?;
+    /// assert!((pair.duration() - 0.5e-3).abs() < 1e-9);
+    /// assert!((pair.overlap() - impact.overlap()).abs() < 1e-9); // 0.17 mm
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn lasting(duration: f64, effective_mass: f64, speed: f64) -> Result<Self, ValueError> {
+        Bound::Positive.check("contact duration (s)", duration)?;
+        Bound::Positive.check("impact speed (m/s)", speed)?;
+        // T = DURATION d/v, and the overlap gives the stiffness.
+        Self::overlapping(duration * speed / DURATION, effective_mass, speed)
+    }
+
+    /// The impact of bodies of effective mass m* (kg) and normal relative speed v (m/s) whose greatest
+    /// overlap is d = `overlap` (m): k = 5 m* v^2/(4 d^(5/2)).
+    ///
+    /// # Errors
+    /// If a number is not positive and finite.
+    pub fn overlapping(overlap: f64, effective_mass: f64, speed: f64) -> Result<Self, ValueError> {
+        Bound::Positive.check("overlap (m)", overlap)?;
+        let work = 1.25 * effective_mass * speed * speed;
+        Self::new(
+            work / (overlap * overlap * overlap.sqrt()),
+            effective_mass,
+            speed,
+        )
+    }
+
     /// Force constant k in N/m^(3/2).
     #[must_use]
     pub const fn stiffness(&self) -> f64 {
@@ -125,6 +171,24 @@ mod tests {
         let impact = ElasticImpact::new(1.6e7, 2e-4, 0.3).unwrap();
         let other = 3.218_065_5 * (2e-4_f64.powi(2) / (1.6e7_f64.powi(2) * 0.3)).powf(0.2);
         assert_relative_eq!(impact.duration(), other, max_relative = 2e-8);
+    }
+
+    #[test]
+    fn a_stiffness_chosen_by_duration_or_overlap_gives_just_that() {
+        for (mass, speed) in [(1e-4, 0.01), (2e-4, 1.0), (3.0, 12.0)] {
+            for wanted in [1e-6, 3e-4, 0.02] {
+                let impact = ElasticImpact::lasting(wanted, mass, speed).unwrap();
+                assert_relative_eq!(impact.duration(), wanted, max_relative = 1e-14);
+                let printed = mass * ((3.218_065_5 / wanted).powi(5) / speed).sqrt();
+                assert_relative_eq!(impact.stiffness(), printed, max_relative = 1e-7);
+                let impact = ElasticImpact::overlapping(wanted, mass, speed).unwrap();
+                assert_relative_eq!(impact.overlap(), wanted, max_relative = 1e-14);
+            }
+        }
+        assert!(ElasticImpact::lasting(0.0, 1.0, 1.0).is_err());
+        assert!(ElasticImpact::lasting(1e-4, 1.0, f64::NAN).is_err());
+        assert!(ElasticImpact::overlapping(-1e-4, 1.0, 1.0).is_err());
+        assert!(ElasticImpact::overlapping(1e-90, 1.0, 1e90).is_err());
     }
 
     #[test]

@@ -7,7 +7,7 @@ use crate::mount::MountEnergy;
 mod accounts;
 mod touch;
 
-pub use accounts::{Energies, Losses};
+pub use accounts::{Account, Energies, Losses};
 use touch::{Pace, Touch, class};
 
 /// State at the end of the last step.
@@ -92,6 +92,36 @@ impl EnergyLedger {
         Self::default()
     }
 
+    /// The account since it was opened.
+    #[must_use]
+    pub fn account(&self) -> Account {
+        Account {
+            opening: self.opening,
+            closing: self.last.energies,
+            input: self.input,
+            structure_loss: self.structure,
+            losses: self.losses,
+            integration_loss: self.integration_loss(),
+        }
+    }
+
+    /// Hands over the account and opens the next one where it ends: once a period, the energy of each
+    /// cycle.
+    pub fn close(&mut self) -> Account {
+        let account = self.account();
+        self.reset();
+        account
+    }
+
+    /// Opens the account afresh at the end of the last step. Before the first step there is nothing to do.
+    pub const fn reset(&mut self) {
+        self.opening = self.last.energies;
+        self.input = 0.0;
+        self.structure = 0.0;
+        self.losses = Losses::NONE;
+        self.damping = 0.0;
+    }
+
     /// Work of the excitation since the account was opened, in J.
     #[must_use]
     pub const fn input(&self) -> f64 {
@@ -136,8 +166,7 @@ impl EnergyLedger {
     /// Energy in J that is not accounted for: positive when more was put in than can be found.
     #[must_use]
     pub fn residual(&self) -> f64 {
-        let change = self.last.energies.total() - self.opening.total();
-        self.input - change - self.structure - self.losses.total()
+        self.account().residual()
     }
 
     /// Works of the contacts on the particles over the step, by the change of their momentum: what
@@ -205,9 +234,7 @@ impl EnergyLedger {
             ..Energies::default()
         };
         for particle in &self.pace.particles {
-            energies.translation += 0.5 * particle.mass * particle.velocity.length_squared();
-            energies.spin += 0.5 * particle.inertia() * particle.spin.length_squared();
-            energies.gravity -= particle.mass * report.gravity().dot(particle.position);
+            energies.add_particle(particle, report.gravity());
         }
         for stored in &self.stored {
             energies.contacts += stored.normal + stored.tangential;

@@ -13,6 +13,7 @@ pub(crate) trait Observable {
     fn cavities(&self) -> usize;
     fn container(&self, cavity: usize) -> Option<Motion>;
     fn load(&self, cavity: usize) -> Option<DVec3>;
+    fn impulse(&self, cavity: usize) -> Option<DVec3>;
     fn walls(&self, cavity: usize) -> u32;
     fn wall_load(&self, cavity: usize, wall: u32) -> Option<WallLoad>;
     fn wall_name(&self, cavity: usize, wall: u32) -> Option<&'static str>;
@@ -96,6 +97,13 @@ impl<'a> StepReport<'a> {
     #[must_use]
     pub fn load(&self, cavity: usize) -> Option<DVec3> {
         self.view.load(cavity)
+    }
+
+    /// Impulse in N s of the particles on a container over the step that ends here: exactly the momentum
+    /// that they lost, but for gravity.
+    #[must_use]
+    pub fn impulse(&self, cavity: usize) -> Option<DVec3> {
+        self.view.impulse(cavity)
     }
 
     /// How many walls a cavity has.

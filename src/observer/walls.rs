@@ -48,11 +48,29 @@ impl WallRecorder {
         &self.records
     }
 
+    /// Starts the records afresh: peaks, impulses and counts. Contacts that go on are no new impacts.
+    pub fn reset(&mut self) {
+        self.time = 0.0;
+        for record in &mut self.records {
+            *record = WallRecord {
+                cavity: record.cavity,
+                wall: record.wall,
+                force: record.force,
+                ..WallRecord::default()
+            };
+        }
+    }
+
+    /// Where the record of a wall stands among all.
+    pub(super) fn place(&self, cavity: usize, wall: u32) -> Option<usize> {
+        let is_it = |record: &WallRecord| record.cavity == cavity && record.wall == wall;
+        self.records.iter().position(is_it)
+    }
+
     /// The record of a wall.
     #[must_use]
     pub fn wall(&self, cavity: usize, wall: u32) -> Option<&WallRecord> {
-        let is_it = |record: &&WallRecord| record.cavity == cavity && record.wall == wall;
-        self.records.iter().find(is_it)
+        self.records.get(self.place(cavity, wall)?)
     }
 
     /// The mean force on a wall over the time watched, in N.

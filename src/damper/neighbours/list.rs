@@ -274,6 +274,12 @@ impl<L: ContactLaw> NeighbourList<L> {
         self.list.len()
     }
 
+    /// The places of all candidates, and their bodies.
+    pub(crate) fn all(&self) -> impl Iterator<Item = (u32, [u32; 2])> {
+        let bodies = self.list.iter().map(|own| [own.first, own.second]);
+        (0..).zip(bodies)
+    }
+
     /// Lists the candidates that are in contact, as `touches` tells of both and of the distance at which
     /// they touch (m).
     #[inline(always)]

@@ -30,6 +30,8 @@ const STILL: f64 = 1e-4;
 pub(crate) struct StepStart {
     /// Motions of the containers.
     motions: Vec<Motion>,
+    /// The sums of impulses on the containers, three numbers each, N s.
+    pub(crate) impulses: Vec<f64>,
 }
 
 impl<C: Cavity, L: ContactLaw, M: Mount> State<C, L, M> {
@@ -43,6 +45,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount> State<C, L, M> {
             .iter()
             .map(|compartment| compartment.motion);
         self.step_start.motions.extend(motions);
+        let impulses = &self.mount_coordinates.velocity[self.mount.degrees()..];
+        self.step_start.impulses.clear();
+        self.step_start.impulses.extend_from_slice(impulses);
     }
 
     /// Ends a step.
