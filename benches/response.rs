@@ -18,6 +18,7 @@ fn measure<L: ContactLaw + Clone>(c: &mut Criterion, name: &str, curve: &Respons
         let point = Point {
             particles,
             seed: 1,
+            amplitude: 0.25,
             frequency: 6.0,
         };
         group

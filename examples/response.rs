@@ -143,6 +143,7 @@ impl Options {
                     points.push(Point {
                         particles,
                         seed,
+                        amplitude: 0.25,
                         frequency,
                     });
                 }
@@ -243,6 +244,7 @@ fn row(options: &Options, variant: Variant, response: &Response) -> String {
         particles,
         seed,
         frequency,
+        ..
     } = response.point;
     format!(
         "{},{},{},{},{particles},{seed},{frequency},{:.6},{:.6},{:.6},{:.4e},{}",

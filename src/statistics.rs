@@ -22,6 +22,7 @@ mod student;
 mod truncation;
 
 pub use interval::{Interval, autocorrelation, batch_means};
+pub(crate) use steady::half_width;
 pub use steady::{SteadyState, steady_state};
 pub use student::student_t;
 pub use truncation::{Truncation, truncation};

@@ -218,6 +218,7 @@ fn follows_the_strict_law(points: &[(usize, f64)], seeds: u64, time_step: f64, b
             let point = Point {
                 particles,
                 seed,
+                amplitude: 0.25,
                 frequency,
             };
             let go_on = |_| ControlFlow::Continue(());

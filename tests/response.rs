@@ -25,6 +25,7 @@ fn point(particles: usize, frequency: f64) -> Point {
     Point {
         particles,
         seed: 1,
+        amplitude: 0.25,
         frequency,
     }
 }
@@ -230,7 +231,10 @@ fn what_cannot_be_measured_is_refused_with_its_point() {
     }
     let (text, error) = run(&curve.clone().particles([0, 500]));
     assert!(matches!(error, ResponseError::Filling { point, .. } if point.particles == 500));
-    assert!(text.contains("500 particles, seed 1, 5 Hz"), "{text}");
+    assert!(
+        text.contains("500 particles, seed 1, amplitude 0.25, 5 Hz"),
+        "{text}"
+    );
     let (_, error) = run(&curve.clone().particles([3]).time_step(0.1));
     assert!(matches!(error, ResponseError::Build { .. }));
 
@@ -245,7 +249,7 @@ fn what_cannot_be_measured_is_refused_with_its_point() {
     assert_eq!(point.particles, 40);
     assert!(time > 0.0);
     assert!(matches!(
-        error,
+        *error,
         StepError::Escaped { .. } | StepError::Overlap { .. }
     ));
     let counted = literal.contained(false).run(|_| ControlFlow::Continue(()));
@@ -267,9 +271,8 @@ fn every_point_of_the_papers_figure_11() {
             let reference: Vec<f64> = seeds
                 .map(|seed| {
                     let point = Point {
-                        particles,
                         seed,
-                        frequency,
+                        ..point(particles, frequency)
                     };
                     strict
                         .measure(point, |_| ControlFlow::Continue(()))
@@ -297,3 +300,10 @@ fn every_point_of_the_papers_figure_11() {
         assert!((peaks[0].0 - peaks[1].0).abs() < 0.1, "{peaks:?}");
     }
 }
+
+#[path = "response/structures.rs"]
+mod structures;
+#[path = "response/surety.rs"]
+mod surety;
+#[path = "response/sweeps.rs"]
+mod sweeps;

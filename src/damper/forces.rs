@@ -16,7 +16,6 @@ use crate::step_error::StepError;
 mod batch;
 mod evaluate;
 mod report;
-mod sums;
 
 use evaluate::BlockForces;
 

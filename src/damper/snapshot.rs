@@ -377,4 +377,14 @@ where
             .list(&engine.state, Some(&snapshot.memory))?;
         Ok(())
     }
+
+    /// Puts the damper into the state of `other`, which differs in what drives it and in its time step. Its
+    /// own time goes on.
+    pub(crate) fn take_over(&mut self, other: &Self) -> Result<(), RestoreError> {
+        let mut snapshot = other.snapshot();
+        snapshot.clock = self.clock;
+        snapshot.setup = snapshot.setup.under_steps_of(self.time_step);
+        snapshot.digest = snapshot.digest(&self.engine.state.model.law);
+        self.restore(&snapshot)
+    }
 }

@@ -20,9 +20,52 @@
 //! # Ok::<(), particle_damper::response::ResponseError>(())
 //! ```
 //!
-//! How long to wait: the start fades as exp(-C t / 2M), which particles at rest do not hasten. Several
-//! seeds tell how much of a difference is chance. Points are independent; the feature `rayon` runs them
-//! on all cores, with the same bits.
+//! # How sure
+//!
+//! A [`Response`](crate::response::Response) holds [half-widths](crate::response::HalfWidths) of 95 %
+//! intervals, from the values of its periods, and whether the start was over. How long to wait: the start
+//! fades as exp(-C t / 2M), which particles at rest do not hasten. Or say how sure you want to be:
+//!
+//! ```
+//! use std::ops::ControlFlow;
+//! use particle_damper::{Material, ResponseCurve, RestitutionImpulse};
+//!
+//! let curve = ResponseCurve::new(RestitutionImpulse::new(Material::acrylic()))
+//!     .particles([10])
+//!     .frequencies([6.5])
+//!     .periods_until(0.05, 500); // 5 %, or give up after 500 periods
+//! for response in curve.run(|_| ControlFlow::Continue(()))? {
+//!     let width = response.half_widths.map_or(f64::INFINITY, |widths| widths.rms_mean);
+//!     assert!(response.settled && width <= 0.05 * response.rms_mean);
+//! }
+//! # Ok::<(), particle_damper::response::ResponseError>(())
+//! ```
+//!
+//! The RMS of one period is averaged with its neighbours' as if the motion went on like this for ever.
+//! What another filling would give is not in the interval: several seeds tell. The periods' own values
+//! come with the callback of [`measure`](crate::ResponseCurve::measure), and
+//! [`statistics`](crate::statistics) are for series of any kind.
+//!
+//! # A structure of your own
+//!
+//! [`OnBase`](crate::response::OnBase) shakes the oscillator's base, which gives the transmissibility;
+//! [`Excited`](crate::response::Excited) takes any mount from a closure, and names the coordinate that is
+//! watched; a [`Structure`](crate::response::Structure) can be anything.
+//!
+//! # Where it comes from
+//!
+//! Impact dampers have more than one steady motion. A [`sweep`](crate::ResponseCurve::sweep) in amplitude or
+//! frequency keeps the state from point to point, up and down, and
+//! [`Branches::parted`](crate::response::Branches::parted) says where the two ways differ. With `periods` few
+//! and points close it is a slow sweep; with many each point is a steady state.
+//!
+//! # Many points
+//!
+//! Points are independent; the feature `rayon` runs them on all cores, with the same bits. With the
+//! feature `serde` they can be written, [measured](crate::ResponseCurve::measure) elsewhere one by one, and
+//! their responses gathered: the same bits again. A [line](crate::response::Line) of a sweep goes out as a whole.
+//!
+//! # Other experiments
 //!
 //! An experiment of another kind (a sweep, a shock, a record) is a loop over
 //! [`Damper::step`](crate::Damper::step) with its own [excitation](crate::excitation); a free decay is a

@@ -1,5 +1,5 @@
 use super::Point;
-use crate::damper::BuildError;
+use crate::damper::{BuildError, RestoreError};
 use crate::error::ValueError;
 use crate::filling::FillingError;
 use crate::step_error::StepError;
@@ -25,7 +25,7 @@ pub enum ResponseError {
         /// The point that was to be measured.
         point: Point,
         /// What is wrong.
-        error: BuildError,
+        error: Box<BuildError>,
     },
     /// A step could not be taken.
     #[error("{point}, after {time} s: {error}")]
@@ -35,7 +35,21 @@ pub enum ResponseError {
         /// Simulated time in s.
         time: f64,
         /// What happened.
-        error: StepError,
+        error: Box<StepError>,
+    },
+    /// The structure has no such thing as it watches.
+    #[error("{point}: the structure has not what is watched of it")]
+    Unwatched {
+        /// The point that was to be measured.
+        point: Point,
+    },
+    /// The damper of a sweep's next point cannot take over the state of the last one's.
+    #[error("{point}: {error}")]
+    Sweep {
+        /// The point that was to be measured.
+        point: Point,
+        /// What differs.
+        error: Box<RestoreError>,
     },
     /// The callback asked to stop.
     #[error("cancelled")]

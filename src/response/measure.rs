@@ -1,42 +1,25 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-use super::{Point, Response, ResponseCurve, ResponseError};
+use super::average::History;
+use super::curve::Periods;
+use super::period::{Period, Sums};
+use super::{Point, Response, ResponseCurve, ResponseError, Structure};
 use crate::cavity::Cavity;
 use crate::damper::Damper;
 use crate::detector::Detector;
 use crate::error::{Bound, ValueError};
-use crate::excitation::Harmonic;
 use crate::filling::Filling;
 use crate::integrator::Integrator;
 use crate::law::ContactLaw;
-use crate::mount::SingleDof;
+use crate::observer::{Observer, StepReport};
 use crate::particle::Particle;
-
-/// Running sums of a displacement sampled evenly over whole periods.
-#[derive(Debug, Default)]
-struct Sums {
-    samples: u64,
-    sum: f64,
-    squares: f64,
-    in_phase: f64,
-    quadrature: f64,
-}
-
-impl Sums {
-    /// Takes up the displacement at the angle (rad) of the force.
-    fn add(&mut self, displacement: f64, angle: f64) {
-        let (sine, cosine) = libm::sincos(angle);
-        self.samples += 1;
-        self.sum += displacement;
-        self.squares += displacement * displacement;
-        self.in_phase += displacement * sine;
-        self.quadrature += displacement * cosine;
-    }
-}
 
 /// Steps to a period at the least: ten to each half of the wave, and one for their rounding.
 const LEAST_STEPS: f64 = 21.0;
+
+/// Periods at the least that tell whether a point has settled.
+const LEAST_PERIODS: f64 = 20.0;
 
 /// How many steps of at most `longest` make up a period.
 fn steps_per_period(frequency: f64, longest: f64) -> Result<u64, ValueError> {
@@ -49,120 +32,164 @@ fn steps_per_period(frequency: f64, longest: f64) -> Result<u64, ValueError> {
     Ok(steps as u64)
 }
 
-impl<L, C, D, I> ResponseCurve<L, C, D, I> {
+/// Keeps what a structure watches.
+struct Watch<'a, S> {
+    structure: &'a S,
+    value: Option<f64>,
+}
+
+impl<S: Structure> Observer for Watch<'_, S> {
+    fn step(&mut self, report: &StepReport<'_>) {
+        self.value = self.structure.watched(report);
+    }
+}
+
+impl<L, C, D, I, S> ResponseCurve<L, C, D, I, S> {
     pub(super) fn check(&self) -> Result<(), ValueError> {
-        Bound::Positive.check("amplitude of the force (N)", self.force)?;
+        for &amplitude in &self.amplitudes {
+            Bound::Positive.check("amplitude of the force or motion (N or m)", amplitude)?;
+        }
         Bound::Positive.check("time step (s)", self.time_step)?;
-        Bound::AtLeast(1.0).check("periods averaged", f64::from(self.averaged))?;
-        Bound::Positive.check(
-            "stiffness of the primary system (N/m)",
-            self.oscillator.stiffness(),
-        )?;
+        match self.periods {
+            Periods::Fixed { averaged, .. } => {
+                Bound::AtLeast(1.0).check("periods averaged", f64::from(averaged))?;
+            }
+            Periods::Until { half_width, most } => {
+                Bound::Positive.check("half-width asked for", half_width)?;
+                Bound::AtLeast(LEAST_PERIODS).check("periods at most", f64::from(most))?;
+            }
+        }
         for &frequency in &self.frequencies {
             Bound::Positive.check("frequency (Hz)", frequency)?;
         }
         Ok(())
     }
-
-    /// Periods of a point, discarded and averaged.
-    pub(super) const fn periods_per_point(&self) -> u64 {
-        self.discarded as u64 + self.averaged as u64
-    }
 }
 
-impl<L, C, D, I> ResponseCurve<L, C, D, I>
+impl<L, C, D, I, S> ResponseCurve<L, C, D, I, S>
 where
     L: ContactLaw + Clone,
     C: Cavity + Clone,
     D: Detector + Clone,
     I: Integrator + Clone,
+    S: Structure,
 {
-    /// Measures one point, of the curve or any other. `each_period` is called at the end of every
-    /// period with the number of those done, and may cancel.
+    /// Measures one point, of the curve or any other: what [`run`](Self::run) gives for it, to the bit.
+    /// `each_period` is called at the end of every period with what it was, and may cancel.
     ///
     /// # Errors
     /// If a number is outside its range, the container cannot be filled, the damper cannot be built or
-    /// a step cannot be taken, or when `each_period` breaks.
+    /// a step cannot be taken, the structure has not what it watches, or when `each_period` breaks.
     pub fn measure(
         &self,
         point: Point,
-        mut each_period: impl FnMut(u64) -> ControlFlow<()>,
+        each_period: impl FnMut(Period) -> ControlFlow<()>,
     ) -> Result<Response, ResponseError> {
         self.check()?;
-        let frequency = Bound::Positive.check("frequency (Hz)", point.frequency)?;
-        let steps = steps_per_period(frequency, self.time_step)?;
-        let mut damper = self.damper(point, 1.0 / (frequency * steps as f64))?;
-        let mut sums = Sums::default();
+        let mut damper = self.damper(point)?;
+        self.observe(point, &mut damper, each_period)
+    }
+
+    /// Measures a point with a damper of its own.
+    pub(super) fn observe(
+        &self,
+        point: Point,
+        damper: &mut Damper<C, L, S::Mount, D, I>,
+        mut each_period: impl FnMut(Period) -> ControlFlow<()>,
+    ) -> Result<Response, ResponseError> {
+        let steps = steps_per_period(point.frequency, self.time_step)?;
+        let unit = "unit of what is watched";
+        let unit = Bound::Positive.check(unit, self.structure.unit(point.drive()))?;
+        let mut history = History::new(self.periods, unit);
+        let mut watch = Watch {
+            structure: &self.structure,
+            value: None,
+        };
         let (mut max_overlap, mut outside) = (0.0_f64, 0);
-        for period in 0..self.periods_per_point() {
-            let averaged = period >= u64::from(self.discarded);
+        loop {
+            let mut sums = Sums::default();
             for step in 1..=steps {
-                damper.step().map_err(|error| ResponseError::Step {
+                let done = damper.step_watched(&mut watch);
+                done.map_err(|error| ResponseError::Step {
                     point,
                     time: damper.time(),
-                    error,
+                    error: Box::new(error),
                 })?;
                 max_overlap = max_overlap.max(damper.largest_overlap());
-                if averaged {
-                    let angle = TAU * (step as f64 / steps as f64);
-                    sums.add(damper.coordinates()[0], angle);
+                let value = watch.value.ok_or(ResponseError::Unwatched { point })?;
+                let angle = libm::sincos(TAU * (step as f64 / steps as f64)).into();
+                sums.add(value, angle);
+                if let Some(total) = history.total() {
+                    total.add(value, angle);
                 }
             }
             outside = outside.max(damper.outside());
-            if each_period(period + 1).is_break() {
+            if each_period(history.push(sums)).is_break() {
                 return Err(ResponseError::Cancelled);
             }
+            if let Some(averages) = history.averages() {
+                return Ok(Response {
+                    point,
+                    time_step: damper.time_step(),
+                    rms_zero: averages.rms_zero,
+                    rms_mean: averages.rms_mean,
+                    mean: averages.mean,
+                    first_harmonic: averages.first_harmonic,
+                    phase_lag: averages.phase_lag,
+                    half_widths: averages.half_widths,
+                    settled: averages.settled,
+                    discarded: averages.discarded,
+                    averaged: averages.averaged,
+                    max_overlap,
+                    outside,
+                });
+            }
         }
-        let deflection = self.force / self.oscillator.stiffness();
-        let samples = sums.samples as f64;
-        let mean = sums.sum / samples;
-        let square = sums.squares / samples;
-        let [sine, cosine] = [sums.in_phase, sums.quadrature].map(|sum| 2.0 * sum / samples);
-        Ok(Response {
-            point,
-            time_step: damper.time_step(),
-            rms_zero: square.sqrt() / deflection,
-            rms_mean: (square - mean * mean).max(0.0).sqrt() / deflection,
-            mean: mean / deflection,
-            first_harmonic: libm::hypot(sine, cosine) / deflection,
-            phase_lag: libm::atan2(-cosine, sine),
-            max_overlap,
-            outside,
-        })
     }
 
     /// The damper of a point, filled and at rest.
-    fn damper(
+    pub(super) fn damper(
         &self,
         point: Point,
-        time_step: f64,
-    ) -> Result<Damper<C, L, SingleDof<Harmonic>, D, I>, ResponseError> {
-        let force = Harmonic::new(self.force, point.frequency)?;
-        let damper = Damper::builder(self.cavity.clone(), self.law.clone())
-            .mount(self.oscillator.excited_by(force))
+    ) -> Result<Damper<C, L, S::Mount, D, I>, ResponseError> {
+        let frequency = Bound::Positive.check("frequency (Hz)", point.frequency)?;
+        Bound::Positive.check("amplitude of the force or motion (N or m)", point.amplitude)?;
+        let steps = steps_per_period(frequency, self.time_step)?;
+        let mount = self.structure.mount(point.drive())?;
+        let bed = self.fill(point)?;
+        let mut damper = Damper::builder(self.cavity.clone(), self.law.clone())
+            .mount(mount)
             .detector(self.detector.clone())
             .integrator(self.integrator.clone())
             .gravity(self.gravity)
-            .particles(self.fill(point)?)
-            .time_step(time_step);
-        let damper = if self.contained {
-            damper
-        } else {
-            damper.contained(false).overlap_limit(f64::INFINITY)
-        };
+            .particles(bed)
+            .time_step(1.0 / (frequency * steps as f64));
+        for cavity in &self.others {
+            damper = damper.another_cavity(cavity.clone());
+        }
+        if !self.contained {
+            damper = damper.contained(false).overlap_limit(f64::INFINITY);
+        }
         damper
             .build()
+            .map_err(Box::new)
             .map_err(|error| ResponseError::Build { point, error })
     }
 
     fn fill(&self, point: Point) -> Result<Vec<Particle>, ResponseError> {
-        let mut filling = Filling::new(point.seed).with(point.particles, self.particle);
-        if self.gravity.length_squared() > 0.0 {
-            filling = filling.down(self.gravity);
+        let mut bed = Vec::new();
+        let cavities = std::iter::once(&self.cavity).chain(&self.others);
+        for (number, cavity) in (0_u32..).zip(cavities) {
+            let seed = point.seed.wrapping_add(u64::from(number));
+            let particle = self.particle.in_cavity(number);
+            let mut filling = Filling::new(seed).with(point.particles, particle);
+            if self.gravity.length_squared() > 0.0 {
+                filling = filling.down(self.gravity);
+            }
+            let filled = filling.fill(cavity);
+            bed.extend(filled.map_err(|error| ResponseError::Filling { point, error })?);
         }
-        filling
-            .fill(&self.cavity)
-            .map_err(|error| ResponseError::Filling { point, error })
+        Ok(bed)
     }
 }
 

@@ -1,178 +1,226 @@
+use std::fmt;
 use std::ops::ControlFlow;
 
-use super::{Point, Response, ResponseCurve, ResponseError};
+use super::run::{Hear, Ledger, Told, spread};
+use super::{Branches, Period, Point, Progress, Response, ResponseCurve, ResponseError, Structure};
 use crate::cavity::Cavity;
+use crate::damper::Damper;
 use crate::detector::Detector;
 use crate::integrator::Integrator;
 use crate::law::ContactLaw;
 
-/// How far a curve has come.
+/// What a sweep goes through.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Swept {
+    /// The amplitude of the drive.
+    Amplitude,
+    /// The frequency of the drive.
+    Frequency,
+}
+
+/// One line of a sweep, up and down: a unit of work by itself, as its points hang together.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct Progress<'a> {
-    /// Part of the work that is done, 0 to 1, by the time that points are likely to take.
-    pub fraction: f64,
-    /// How many points are finished.
-    pub finished: usize,
-    /// How many points there are.
-    pub points: usize,
-    /// The point that has just been finished.
-    pub latest: Option<&'a Response>,
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Line {
+    /// Number of particles N, in each cavity.
+    pub particles: usize,
+    /// Seed of the initial filling.
+    pub seed: u64,
+    /// What is swept.
+    pub swept: Swept,
+    /// The other one: the frequency in Hz where the amplitude is swept, else the amplitude.
+    pub other: f64,
 }
 
-/// Keeps the books of a sweep and tells the callback.
-struct Ledger<F> {
-    tell: F,
-    work_per_period: Vec<f64>,
-    all_work: f64,
-    work: f64,
-    finished: usize,
-}
-
-impl<F: FnMut(&Progress<'_>) -> ControlFlow<()>> Ledger<F> {
-    fn new(points: &[Point], periods: u64, tell: F) -> Self {
-        let work_per_period: Vec<f64> = points.iter().map(|point| point.work()).collect();
-        Self {
-            all_work: work_per_period.iter().sum::<f64>() * periods as f64,
-            tell,
-            work_per_period,
-            work: 0.0,
-            finished: 0,
+impl Line {
+    fn at(&self, value: f64) -> Point {
+        let (amplitude, frequency) = match self.swept {
+            Swept::Amplitude => (value, self.other),
+            Swept::Frequency => (self.other, value),
+        };
+        Point {
+            particles: self.particles,
+            seed: self.seed,
+            amplitude,
+            frequency,
         }
     }
+}
 
-    fn report(&mut self, latest: Option<&Response>) -> ControlFlow<()> {
-        let points = self.work_per_period.len();
-        (self.tell)(&Progress {
-            fraction: if self.finished == points {
-                1.0
-            } else {
-                (self.work / self.all_work).min(1.0)
-            },
-            finished: self.finished,
-            points,
-            latest,
+impl fmt::Display for Line {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            particles,
+            seed,
+            swept,
+            other,
+        } = self;
+        write!(f, "{particles} particles, seed {seed}, ")?;
+        match swept {
+            Swept::Amplitude => write!(f, "{other} Hz"),
+            Swept::Frequency => write!(f, "amplitude {other}"),
+        }
+    }
+}
+
+impl<L, C, D, I, S> ResponseCurve<L, C, D, I, S> {
+    /// The lines of a [sweep](Self::sweep): every combination of number of particles, seed and what is not
+    /// swept.
+    #[must_use]
+    pub fn lines(&self, swept: Swept) -> Vec<Line> {
+        let others = match swept {
+            Swept::Amplitude => &self.frequencies,
+            Swept::Frequency => &self.amplitudes,
+        };
+        let mut lines = Vec::new();
+        for &particles in &self.particles {
+            for &seed in &self.seeds {
+                lines.extend(others.iter().map(|&other| Line {
+                    particles,
+                    seed,
+                    swept,
+                    other,
+                }));
+            }
+        }
+        lines
+    }
+
+    /// The points of a line as they follow each other: up and down again, the last one not twice.
+    fn course(&self, line: &Line) -> [Vec<Point>; 2] {
+        let values = match line.swept {
+            Swept::Amplitude => &self.amplitudes,
+            Swept::Frequency => &self.frequencies,
+        };
+        let mut up: Vec<Point> = values.iter().map(|&value| line.at(value)).collect();
+        let value = |point: &Point| line.swept.of(point);
+        up.sort_by(|a, b| value(a).total_cmp(&value(b)));
+        let down = up.iter().rev().copied().collect();
+        [up, down]
+    }
+}
+
+impl Swept {
+    /// Its value at a point.
+    pub(super) const fn of(self, point: &Point) -> f64 {
+        match self {
+            Self::Amplitude => point.amplitude,
+            Self::Frequency => point.frequency,
+        }
+    }
+}
+
+impl<L, C, D, I, S> ResponseCurve<L, C, D, I, S>
+where
+    L: ContactLaw + Clone,
+    C: Cavity + Clone,
+    D: Detector + Clone,
+    I: Integrator + Clone,
+    S: Structure,
+{
+    /// Measures one line, of the curve's amplitudes or frequencies: what [`sweep`](Self::sweep) gives for
+    /// it, to the bit. `each_period` is called at the end of every period with its point and what it was,
+    /// and may cancel.
+    ///
+    /// # Errors
+    /// As [`sweep`](Self::sweep).
+    pub fn follow(
+        &self,
+        line: Line,
+        mut each_period: impl FnMut(Point, Period) -> ControlFlow<()>,
+    ) -> Result<Branches, ResponseError> {
+        self.check()?;
+        self.follow_line(&line, &mut each_period, &mut |_, _| {
+            ControlFlow::Continue(())
         })
     }
 
-    fn period(&mut self, number: usize) -> ControlFlow<()> {
-        self.work += self.work_per_period[number];
-        self.report(None)
-    }
-
-    fn point(&mut self, response: &Response) -> ControlFlow<()> {
-        self.finished += 1;
-        self.report(Some(response))
+    fn follow_line(
+        &self,
+        line: &Line,
+        each_period: &mut dyn FnMut(Point, Period) -> ControlFlow<()>,
+        each_point: &mut dyn FnMut(&Response, u64) -> ControlFlow<()>,
+    ) -> Result<Branches, ResponseError> {
+        let mut last: Option<Damper<C, L, S::Mount, D, I>> = None;
+        let mut branches = [Vec::new(), Vec::new()];
+        for (points, branch) in self.course(line).iter().zip(&mut branches) {
+            for &point in points {
+                let mut damper = self.damper(point)?;
+                if let Some(last) = &last {
+                    let taken = damper.take_over(last);
+                    taken
+                        .map_err(Box::new)
+                        .map_err(|error| ResponseError::Sweep { point, error })?;
+                }
+                let mut left = self.periods.most();
+                let response = self.observe(point, &mut damper, |period| {
+                    left -= 1;
+                    each_period(point, period)
+                })?;
+                if each_point(&response, left).is_break() {
+                    return Err(ResponseError::Cancelled);
+                }
+                branch.push(response);
+                last = Some(damper);
+            }
+        }
+        let [up, down] = branches;
+        Ok(Branches {
+            line: *line,
+            up,
+            down,
+        })
     }
 }
 
-impl Point {
-    /// Likely work for one period, in any unit: the oscillator costs as much as a few particles.
-    fn work(self) -> f64 {
-        (self.particles as f64 + 4.0) / self.frequency
-    }
-}
-
-impl<L, C, D, I> ResponseCurve<L, C, D, I>
+impl<L, C, D, I, S> ResponseCurve<L, C, D, I, S>
 where
     L: ContactLaw + Clone,
     C: Cavity + Clone + Sync,
     D: Detector + Clone + Sync,
     I: Integrator + Clone + Sync,
+    S: Structure + Sync,
 {
-    /// Measures all [`points`](Self::points), in their order.
+    /// Goes up through the amplitudes or the frequencies and down again, and keeps the state from point
+    /// to point: particles, contacts and mount go on as they were while the drive changes, at the end of
+    /// a period, where it is zero and rising. So the response may be told apart by where it comes from:
+    /// [`Branches::parted`] says where.
     ///
-    /// `progress` is called after every period of every point and after every point; it breaks to
-    /// cancel. With the feature `rayon` points are measured on all threads of the current pool, and
-    /// `progress` is called from any of them, one at a time; the responses are the same to the bit,
-    /// and in the same order.
+    /// The first point starts at rest, from the filling. Then [`periods`](Self::periods) are discarded at
+    /// every point; the closer the points are, the less there is to settle.
+    ///
+    /// There is one result for each of the [`lines`](Self::lines), in their order. `progress` is as in
+    /// [`run`](Self::run); a point counts twice, up and down. With the feature `rayon` lines are followed
+    /// on all threads, with the same bits.
     ///
     /// # Errors
-    /// That of the first point, in their order, that [cannot be measured](Self::measure);
-    /// [`ResponseError::Cancelled`] when `progress` breaks.
-    pub fn run<F>(&self, progress: F) -> Result<Vec<Response>, ResponseError>
+    /// As [`run`](Self::run), or if a mount cannot take over the state of the one before, because it
+    /// yields otherwise to forces of the particles.
+    pub fn sweep<F>(&self, swept: Swept, progress: F) -> Result<Vec<Branches>, ResponseError>
     where
         F: FnMut(&Progress<'_>) -> ControlFlow<()> + Send,
     {
         self.check()?;
-        let points = self.points();
-        let ledger = Ledger::new(&points, self.periods_per_point(), progress);
-        self.measure_all(&points, ledger)
-    }
-
-    #[cfg(not(feature = "rayon"))]
-    fn measure_all<F>(
-        &self,
-        points: &[Point],
-        mut ledger: Ledger<F>,
-    ) -> Result<Vec<Response>, ResponseError>
-    where
-        F: FnMut(&Progress<'_>) -> ControlFlow<()> + Send,
-    {
-        let mut responses = Vec::with_capacity(points.len());
-        for (number, &point) in points.iter().enumerate() {
-            let response = self.measure(point, |_| ledger.period(number))?;
-            if ledger.point(&response).is_break() {
-                return Err(ResponseError::Cancelled);
-            }
-            responses.push(response);
-        }
-        Ok(responses)
-    }
-
-    #[cfg(feature = "rayon")]
-    fn measure_all<F>(
-        &self,
-        points: &[Point],
-        ledger: Ledger<F>,
-    ) -> Result<Vec<Response>, ResponseError>
-    where
-        F: FnMut(&Progress<'_>) -> ControlFlow<()> + Send,
-    {
-        use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
-        use std::sync::{Mutex, PoisonError};
-
-        use rayon::iter::{ParallelBridge, ParallelIterator};
-
-        let ledger = Mutex::new(ledger);
-        let cancelled = AtomicBool::new(false);
-        // The lowest number of a point that failed: those after it are of no account.
-        let failed = AtomicUsize::new(usize::MAX);
-        let told = |tell: &dyn Fn(&mut Ledger<F>) -> ControlFlow<()>| {
-            let mut ledger = ledger.lock().unwrap_or_else(PoisonError::into_inner);
-            if cancelled.load(Relaxed) {
-                return ControlFlow::Break(());
-            }
-            let answer = tell(&mut ledger);
-            cancelled.fetch_or(answer.is_break(), Relaxed);
-            answer
+        let lines = self.lines(swept);
+        let most = self.periods.most() as f64;
+        let points = |line: &Line| self.course(line).concat();
+        let cost = |line: &Line| -> f64 {
+            let works = points(line).into_iter().map(Point::work);
+            works.sum::<f64>() * most
         };
-        // The longest first, one at a time to whoever is free.
-        let mut order: Vec<usize> = (0..points.len()).collect();
-        order.sort_by(|a, b| points[*b].work().total_cmp(&points[*a].work()));
-        let mut results: Vec<(usize, Result<Response, ResponseError>)> = order
-            .into_iter()
-            .par_bridge()
-            .map(|number| {
-                let result = self.measure(points[number], |_| {
-                    if failed.load(Relaxed) < number {
-                        return ControlFlow::Break(());
-                    }
-                    told(&|ledger| ledger.period(number))
-                });
-                match &result {
-                    // The answer to a finished point shows in `cancelled`.
-                    Ok(response) => drop(told(&|ledger| ledger.point(response))),
-                    Err(ResponseError::Cancelled) => {}
-                    Err(_) => drop(failed.fetch_min(number, Relaxed)),
-                }
-                (number, result)
-            })
-            .collect();
-        results.sort_by_key(|(number, _)| *number);
-        if cancelled.load(Relaxed) {
-            return Err(ResponseError::Cancelled);
-        }
-        results.into_iter().map(|(_, result)| result).collect()
+        let count = lines.iter().map(|line| points(line).len()).sum();
+        let ledger = Ledger::new(count, lines.iter().map(cost).sum(), progress);
+        spread(&lines, cost, ledger, |line, hear: &mut Hear<'_>| {
+            let hear = std::cell::RefCell::new(hear);
+            self.follow_line(
+                line,
+                &mut |point, _| (hear.borrow_mut())(&Told::Period(point.work())),
+                &mut |response, left| {
+                    let unneeded = response.point.work() * left as f64;
+                    (hear.borrow_mut())(&Told::Point(response, unneeded))
+                },
+            )
+        })
     }
 }

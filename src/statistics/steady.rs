@@ -6,6 +6,9 @@ use super::{
 /// What may still be to fade, over the mean.
 const NEGLIGIBLE: f64 = 1e-3;
 
+/// Differences that mean nothing, over the mean.
+const ROUNDING: f64 = 1e-12;
+
 /// The mean of a series after its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -37,16 +40,11 @@ pub fn steady_state(series: &[f64], confidence: f64) -> Result<SteadyState, Stat
         Truncation::RunLonger => ((series.len() / 2).min(series.len() - LEAST), false),
     };
     let kept = &series[discarded..];
-    let mut interval = batch_means(kept, confidence)?;
-    let other = autocorrelation(kept, confidence)?;
-    if other.half_width > interval.half_width {
-        interval = other;
-    }
+    let mut interval = wider(kept, confidence)?;
     let settled = over || {
         let little = NEGLIGIBLE * interval.mean.abs();
-        let left = still_to_fade(kept);
-        interval.half_width += left.unwrap_or_default();
-        left.is_some_and(|left| left <= little)
+        interval.half_width += fade(kept);
+        still_to_fade(kept).is_some_and(|left| left <= little)
     };
     Ok(SteadyState {
         interval,
@@ -55,9 +53,38 @@ pub fn steady_state(series: &[f64], confidence: f64) -> Result<SteadyState, Stat
     })
 }
 
+/// The wider of the two intervals.
+fn wider(series: &[f64], confidence: f64) -> Result<Interval, StatisticsError> {
+    let batches = batch_means(series, confidence)?;
+    let other = autocorrelation(series, confidence)?;
+    Ok(if other.half_width > batches.half_width {
+        other
+    } else {
+        batches
+    })
+}
+
+/// The half-width for the mean of a series that is kept whole: of the wider interval, and what is still to
+/// fade if the series is on its way.
+pub(crate) fn half_width(series: &[f64], confidence: f64) -> Result<f64, StatisticsError> {
+    let width = wider(series, confidence)?.half_width;
+    Ok(match truncation(series) {
+        Truncation::After(_) => width,
+        Truncation::RunLonger => width + fade(series),
+    })
+}
+
+/// What the half-width of a series on its way has to be wider by: what is still to fade, where that is no
+/// more than has been seen to change.
+fn fade(series: &[f64]) -> f64 {
+    let low = series.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = series.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    still_to_fade(series).map_or(0.0, |left| left.min(high - low))
+}
+
 /// How far the mean of a series that fades evenly is from what it fades to; none if it does not fade.
 fn still_to_fade(series: &[f64]) -> Option<f64> {
-    if series.len() < 3 * LEAST {
+    if series.len() < 6 {
         return None;
     }
     let third = series.len() / 3;
@@ -70,7 +97,8 @@ fn still_to_fade(series: &[f64]) -> Option<f64> {
         let deviation = before / (1.0 - ratio);
         return Some(deviation * (1.0 + ratio + ratio * ratio) / 3.0);
     }
-    (before + after <= 0.0).then_some(0.0)
+    let rounding = ROUNDING * mean(series).abs();
+    (before + after <= rounding).then_some(after)
 }
 
 #[cfg(test)]

@@ -69,6 +69,12 @@ impl Setup {
         }
     }
 
+    /// The same under steps of another length (s).
+    pub(crate) const fn under_steps_of(mut self, time_step: f64) -> Self {
+        self.time_step = time_step;
+        self
+    }
+
     /// What differs first in `other`.
     pub(crate) fn difference(&self, other: &Self) -> Option<&'static str> {
         [
