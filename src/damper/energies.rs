@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::Damper;
 use super::engine::Engine;
 use super::neighbours::NeighbourList;
-use super::state::{StateView, levers, normal_and_overlap, surface_velocity};
+use super::state::{StateView, Volume, levers, normal_and_overlap, surface_velocity};
 use crate::cavity::Cavity;
 use crate::contact::{Contact, Stored};
 use crate::detector::Detector;
@@ -135,10 +135,10 @@ fn pair<C: Cavity, L: ForceLaw>(
 ) -> (L::Coefficients, Contact) {
     let [first, second] = bodies.map(|index| view.grain(index as usize));
     let radii = [first.radius, second.radius];
-    let (normal, overlap) = normal_and_overlap::<false>(first.position - second.position, radii);
+    let (normal, overlap) = normal_and_overlap::<Volume>(first.position - second.position, radii);
     let spins = [first.spin, second.spin];
     let towards = first.velocity - second.velocity;
-    let velocity = surface_velocity::<false>(normal, towards, spins, levers(radii, overlap));
+    let velocity = surface_velocity::<Volume>(normal, towards, spins, levers(radii, overlap));
     let mut contact = Contact::new(normal, overlap, velocity);
     contact.spins = spins;
     let [own, other] = bodies.map(|index| view.species[index as usize]);
@@ -157,7 +157,7 @@ fn wall<C: Cavity, L: ForceLaw>(
     let compartment = view.compartment_of_wall(wall);
     let (spins, levers) = ([grain.spin, DVec3::ZERO], [grain.radius, 0.0]);
     let towards = grain.velocity - compartment.motion.velocity;
-    let velocity = surface_velocity::<false>(point.normal, towards, spins, levers);
+    let velocity = surface_velocity::<Volume>(point.normal, towards, spins, levers);
     let mut contact = Contact::new(point.normal, grain.radius - point.distance, velocity);
     contact.spins = spins;
     contact.wall_inverse_mass = compartment.inverse_mass_along(point.normal);

@@ -16,6 +16,7 @@ use crate::step_error::StepError;
 mod batch;
 mod evaluate;
 mod report;
+mod sums;
 
 use evaluate::BlockForces;
 

@@ -37,7 +37,7 @@ pub(crate) use previous::PreviousAccelerations;
 pub(crate) use space::{Plane, Space, Volume};
 #[cfg(test)]
 pub(crate) use vectors::Axes;
-pub(crate) use vectors::{Rows, Vectors, axial, polar, scale};
+pub(crate) use vectors::{Rows, Vectors};
 pub(crate) use view::{StateView, StepTime};
 
 /// Everything that a step changes, and what it follows.

@@ -4,7 +4,7 @@ use glam::{DVec3, dvec3};
 
 use super::ForceLaw;
 use crate::contact::{Bodies, Body, Contact, ContactForce, Onset};
-use crate::damper::state::{Axes, Vectors, force_and_torques, levers, surface_velocity};
+use crate::damper::state::{Axes, Vectors, Volume, force_and_torques, levers, surface_velocity};
 use crate::integrator::{Columns, Integrator, Motions, Stage, System};
 use crate::material::{Interaction, Material, Materials};
 use crate::step_error::StepError;
@@ -113,7 +113,7 @@ impl<'l, L: ForceLaw> Collision<'l, L> {
         let (normal, overlap) = (towards.normalize(), prediction_distance - towards.length());
         let [own, other] = both(&self.velocity);
         let levers = self.levers(overlap);
-        let velocity = surface_velocity::<false>(normal, own - other, both(&self.spin), levers);
+        let velocity = surface_velocity::<Volume>(normal, own - other, both(&self.spin), levers);
         let mut contact = Contact::new(normal, overlap, velocity);
         contact.spins = both(&self.spin);
         contact.elapsed = elapsed;
@@ -207,7 +207,8 @@ impl<L: ForceLaw> System for Collision<'_, L> {
         if touching {
             let (answer, memory) = self.answer(&contact, onset);
             let levers = self.levers(contact.overlap);
-            let (push, torques) = force_and_torques::<false, true>(contact.normal, levers, &answer);
+            let (push, torques) =
+                force_and_torques::<Volume, true>(contact.normal, levers, &answer);
             let forces = [push, -push];
             for (n, (force, torque)) in forces.into_iter().zip(torques).enumerate() {
                 if n < self.position.len() {

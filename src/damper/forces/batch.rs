@@ -7,18 +7,38 @@
 // Small functions of the innermost loop: the compiler must see the loop whole.
 #![allow(clippy::inline_always)]
 
-use crate::damper::state::StepTime;
 use glam::DVec3;
 
 use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce, Onset};
 use crate::damper::state::{
-    StateView, axial, force_and_torques, levers, normal_and_overlap, polar, surface_velocity,
+    Space, StateView, StepTime, Volume, force_and_torques, levers, normal_and_overlap,
+    surface_velocity,
 };
 use crate::law::{ContactLaw, ContactMemory, ForceLaw, at_least};
 
+/// What the contacts of a batch are between.
+pub(super) trait ContactKind {
+    /// Whether two spheres meet; else a sphere and a wall.
+    const IS_PAIR: bool;
+}
+
+/// Two spheres.
+pub(super) struct SpherePair;
+
+impl ContactKind for SpherePair {
+    const IS_PAIR: bool = true;
+}
+
+/// A sphere and a wall.
+pub(super) struct SphereWall;
+
+impl ContactKind for SphereWall {
+    const IS_PAIR: bool = false;
+}
+
 /// How many contacts are side by side at the most.
-pub(crate) const BATCH_SIZE: usize = 32;
+pub(super) const BATCH_SIZE: usize = 32;
 
 type Column = [f64; BATCH_SIZE];
 
@@ -49,20 +69,20 @@ impl Lanes {
         DVec3::new(self.x[n], self.y[n], self.z[n])
     }
 
-    /// Sets a velocity, force or direction. If `PLANAR`, its z stays zero.
+    /// Sets a velocity, force or direction. In the plane its z stays zero.
     #[inline(always)]
-    const fn set_polar<const PLANAR: bool>(&mut self, n: usize, vector: DVec3) {
+    const fn set_vector<S: Space>(&mut self, n: usize, vector: DVec3) {
         self.x[n] = vector.x;
         self.y[n] = vector.y;
-        if !PLANAR {
+        if !S::PLANAR {
             self.z[n] = vector.z;
         }
     }
 
-    /// Sets a spin or torque. If `PLANAR`, its x and y stay zero.
+    /// Sets a spin or torque. In the plane its x and y stay zero.
     #[inline(always)]
-    const fn set_axial<const PLANAR: bool>(&mut self, n: usize, vector: DVec3) {
-        if PLANAR {
+    const fn set_spin<S: Space>(&mut self, n: usize, vector: DVec3) {
+        if S::PLANAR {
             self.z[n] = vector.z;
         } else {
             self.set(n, vector);
@@ -70,10 +90,9 @@ impl Lanes {
     }
 }
 
-/// Up to [`BATCH_SIZE`] contacts, all of pairs or all with walls, and what the law answers. With `PLANAR`
-/// all of them lie in the plane z = 0.
+/// Up to [`BATCH_SIZE`] contacts, all of pairs or all with walls, and what the law answers.
 #[derive(Debug, Clone)]
-pub(crate) struct Batch<L: ContactLaw> {
+pub(super) struct Batch<L: ContactLaw> {
     count: usize,
     /// From the second body to the first: until their kinematics are [worked out](Self::work_out_kinematics), of two
     /// spheres as far as their centres are apart (m); then the normal.
@@ -117,7 +136,7 @@ impl<L: ContactLaw> Default for Batch<L> {
 
 impl<L: ForceLaw> Batch<L> {
     /// Makes ready for pairs, whose bodies may all be of `only` one radius (m).
-    pub(crate) fn begin_pairs(&mut self, only: Option<f64>) {
+    pub(super) fn begin_pairs(&mut self, only: Option<f64>) {
         if let Some(radius) = only {
             self.radii = [[radius; BATCH_SIZE]; 2];
         }
@@ -125,25 +144,26 @@ impl<L: ForceLaw> Batch<L> {
 
     /// Takes over the pairs of `bodies`, at most [`BATCH_SIZE`] of them.
     #[inline(always)]
-    pub(crate) fn gather_pairs<C: Cavity, const PLANAR: bool>(
+    pub(super) fn gather_pairs<C: Cavity, S: Space>(
         &mut self,
         view: &StateView<'_, C, L>,
         bodies: &[[u32; 2]],
     ) {
         let radius = view.radius;
         // Columns of one length, so that one comparison stands for all their bounds.
-        let position = view.position.polar::<PLANAR>(radius.len());
-        let velocity = view.velocity.polar::<PLANAR>(radius.len());
-        let spin = view.spin.axial::<PLANAR>(radius.len());
+        let position = &S::rows(view.position.flat())[..radius.len()];
+        let velocity = &S::rows(view.velocity.flat())[..radius.len()];
+        let spin = &S::spin_rows(view.spin.flat())[..radius.len()];
         self.count = bodies.len().min(BATCH_SIZE);
         for (n, [i, j]) in bodies.iter().take(BATCH_SIZE).enumerate() {
             let (i, j) = (*i as usize, *j as usize);
-            let towards = position.get(i) - position.get(j);
-            let velocity = velocity.get(i) - velocity.get(j);
-            self.towards.set_polar::<PLANAR>(n, towards);
-            self.velocity.set_polar::<PLANAR>(n, velocity);
-            self.spins[0].set_axial::<PLANAR>(n, spin.get(i));
-            self.spins[1].set_axial::<PLANAR>(n, spin.get(j));
+            let towards = S::from_row(position[i]) - S::from_row(position[j]);
+            let velocity = S::from_row(velocity[i]) - S::from_row(velocity[j]);
+            self.towards.set_vector::<S>(n, S::in_space(towards));
+            self.velocity.set_vector::<S>(n, S::in_space(velocity));
+            let spins = [spin[i], spin[j]].map(|spin| S::spin_in_space(S::from_spin_row(spin)));
+            self.spins[0].set_spin::<S>(n, spins[0]);
+            self.spins[1].set_spin::<S>(n, spins[1]);
         }
         if view.coefficients.only_radius().is_none() {
             for (n, [i, j]) in bodies.iter().take(BATCH_SIZE).enumerate() {
@@ -155,7 +175,7 @@ impl<L: ForceLaw> Batch<L> {
 
     /// Takes over the contacts with walls of `bodies`, at most [`BATCH_SIZE`] of them.
     #[inline(always)]
-    pub(crate) fn gather_walls<C: Cavity>(
+    pub(super) fn gather_walls<C: Cavity>(
         &mut self,
         view: &StateView<'_, C, L>,
         bodies: &[[u32; 2]],
@@ -179,21 +199,21 @@ impl<L: ForceLaw> Batch<L> {
 
     /// Where it is put what the contacts remember.
     #[inline(always)]
-    pub(crate) const fn memory_mut(&mut self) -> &mut [ContactMemory<L>; BATCH_SIZE] {
+    pub(super) const fn memory_mut(&mut self) -> &mut [ContactMemory<L>; BATCH_SIZE] {
         &mut self.memory
     }
 
     /// Works out where and how fast the bodies meet. Apart from the law, so that the roots and
     /// quotients of more contacts are under way at a time.
     #[inline(never)]
-    fn work_out_kinematics<const PAIRS: bool, const PLANAR: bool>(&mut self) {
+    fn work_out_kinematics<K: ContactKind, S: Space>(&mut self) {
         for n in 0..self.count.min(BATCH_SIZE) {
             let radii = self.radii.each_ref().map(|radii| radii[n]);
-            let towards = polar::<PLANAR>(self.towards.get(n));
-            let normal = if PAIRS {
-                let (normal, overlap) = normal_and_overlap::<PLANAR>(towards, radii);
+            let towards = S::flattened(self.towards.get(n));
+            let normal = if K::IS_PAIR {
+                let (normal, overlap) = normal_and_overlap::<S>(towards, radii);
                 self.overlap[n] = overlap;
-                self.towards.set_polar::<PLANAR>(n, normal);
+                self.towards.set_vector::<S>(n, normal);
                 normal
             } else {
                 towards
@@ -201,11 +221,11 @@ impl<L: ForceLaw> Batch<L> {
             let spins = self
                 .spins
                 .each_ref()
-                .map(|spins| axial::<PLANAR>(spins.get(n)));
-            let velocity = polar::<PLANAR>(self.velocity.get(n));
-            let levers = self.levers::<PAIRS>(n);
-            let velocity = surface_velocity::<PLANAR>(normal, velocity, spins, levers);
-            self.velocity.set_polar::<PLANAR>(n, velocity);
+                .map(|spins| S::flattened_spin(spins.get(n)));
+            let velocity = S::flattened(self.velocity.get(n));
+            let levers = self.levers::<K>(n);
+            let velocity = surface_velocity::<S>(normal, velocity, spins, levers);
+            self.velocity.set_vector::<S>(n, velocity);
             self.approach[n] = -velocity.dot(normal);
         }
     }
@@ -213,9 +233,9 @@ impl<L: ForceLaw> Batch<L> {
     /// Levers in m at which friction turns the bodies of a contact. A wall gives way nowhere, and turns
     /// the sphere by its radius.
     #[inline(always)]
-    fn levers<const PAIRS: bool>(&self, n: usize) -> [f64; 2] {
+    fn levers<K: ContactKind>(&self, n: usize) -> [f64; 2] {
         let radii = self.radii.each_ref().map(|radii| radii[n]);
-        if PAIRS {
+        if K::IS_PAIR {
             levers(radii, self.overlap[n])
         } else {
             radii
@@ -224,7 +244,7 @@ impl<L: ForceLaw> Batch<L> {
 
     /// A contact at a time of the step.
     #[inline(always)]
-    pub(crate) fn contact<const PAIRS: bool, const PLANAR: bool>(
+    pub(super) fn contact<K: ContactKind, S: Space>(
         &self,
         n: usize,
         step_time: StepTime,
@@ -232,14 +252,14 @@ impl<L: ForceLaw> Batch<L> {
         let spins = self
             .spins
             .each_ref()
-            .map(|spins| axial::<PLANAR>(spins.get(n)));
-        let normal = polar::<PLANAR>(self.towards.get(n));
-        let velocity = polar::<PLANAR>(self.velocity.get(n));
+            .map(|spins| S::flattened_spin(spins.get(n)));
+        let normal = S::flattened(self.towards.get(n));
+        let velocity = S::flattened(self.velocity.get(n));
         Contact {
             spins,
             elapsed: step_time.elapsed,
             correction: step_time.correction,
-            wall_inverse_mass: if PAIRS {
+            wall_inverse_mass: if K::IS_PAIR {
                 0.0
             } else {
                 self.wall_inverse_mass[n]
@@ -251,34 +271,29 @@ impl<L: ForceLaw> Batch<L> {
     /// Has `law` answer the contacts, with the `only` coefficients that there are, or else with those
     /// of each contact in turn. With `END` their memory advances.
     #[inline(always)]
-    pub(crate) fn evaluate<const PAIRS: bool, const END: bool, const PLANAR: bool>(
+    pub(super) fn evaluate<K: ContactKind, S: Space, const END: bool>(
         &mut self,
         law: &L,
         only: Option<&L::Coefficients>,
         kinds: impl Iterator<Item = L::Coefficients>,
         step_time: StepTime,
     ) {
-        self.work_out_kinematics::<PAIRS, PLANAR>();
+        self.work_out_kinematics::<K, S>();
         if let Some(only) = only {
             if law.has_couple(only) {
-                self.evaluate_alike::<PAIRS, END, PLANAR, true>(law, only, step_time);
+                self.evaluate_alike::<K, S, END, true>(law, only, step_time);
             } else {
-                self.evaluate_alike::<PAIRS, END, PLANAR, false>(law, only, step_time);
+                self.evaluate_alike::<K, S, END, false>(law, only, step_time);
             }
         } else {
             self.kinds.clear();
             self.kinds.extend(kinds);
-            self.evaluate_mixed::<PAIRS, END, PLANAR>(law, step_time);
+            self.evaluate_mixed::<K, S, END>(law, step_time);
         }
     }
 
     #[inline(never)]
-    fn evaluate_alike<
-        const PAIRS: bool,
-        const END: bool,
-        const PLANAR: bool,
-        const COUPLE: bool,
-    >(
+    fn evaluate_alike<K: ContactKind, S: Space, const END: bool, const COUPLE: bool>(
         &mut self,
         law: &L,
         kind: &L::Coefficients,
@@ -286,58 +301,58 @@ impl<L: ForceLaw> Batch<L> {
     ) {
         let kind = *kind;
         for n in 0..self.count.min(BATCH_SIZE) {
-            self.evaluate_one::<PAIRS, END, PLANAR, COUPLE>(law, &kind, n, step_time);
+            self.evaluate_one::<K, S, END, COUPLE>(law, &kind, n, step_time);
         }
     }
 
     #[inline(never)]
-    fn evaluate_mixed<const PAIRS: bool, const END: bool, const PLANAR: bool>(
+    fn evaluate_mixed<K: ContactKind, S: Space, const END: bool>(
         &mut self,
         law: &L,
         step_time: StepTime,
     ) {
         for n in 0..self.kinds.len().min(BATCH_SIZE) {
             let kind = self.kinds[n];
-            self.evaluate_one::<PAIRS, END, PLANAR, true>(law, &kind, n, step_time);
+            self.evaluate_one::<K, S, END, true>(law, &kind, n, step_time);
         }
     }
 
     #[inline(always)]
-    fn evaluate_one<const PAIRS: bool, const END: bool, const PLANAR: bool, const COUPLE: bool>(
+    fn evaluate_one<K: ContactKind, S: Space, const END: bool, const COUPLE: bool>(
         &mut self,
         law: &L,
         kind: &L::Coefficients,
         n: usize,
         step_time: StepTime,
     ) {
-        let contact = self.contact::<PAIRS, PLANAR>(n, step_time);
+        let contact = self.contact::<K, S>(n, step_time);
         let memory = self.memory[n];
         let answer = law.force(kind, &contact, &memory);
         if END {
             self.advanced[n] = law.advance(kind, &contact, &memory);
         }
-        self.store::<PAIRS, PLANAR, COUPLE>(n, contact.normal, &answer);
+        self.store::<K, S, COUPLE>(n, contact.normal, &answer);
     }
 
     /// Stores what an answer does to the two bodies.
     #[inline(always)]
-    fn store<const PAIRS: bool, const PLANAR: bool, const COUPLE: bool>(
+    fn store<K: ContactKind, S: Space, const COUPLE: bool>(
         &mut self,
         n: usize,
         normal: DVec3,
         answer: &ContactForce,
     ) {
-        let levers = self.levers::<PAIRS>(n);
-        let (push, [first, second]) = force_and_torques::<PLANAR, COUPLE>(normal, levers, answer);
-        self.push.set_polar::<PLANAR>(n, push);
-        self.torques[0].set_axial::<PLANAR>(n, first);
-        self.torques[1].set_axial::<PLANAR>(n, second);
+        let levers = self.levers::<K>(n);
+        let (push, [first, second]) = force_and_torques::<S, COUPLE>(normal, levers, answer);
+        self.push.set_vector::<S>(n, push);
+        self.torques[0].set_spin::<S>(n, first);
+        self.torques[1].set_spin::<S>(n, second);
     }
 
     /// Has `law` answer once more where bodies may have met or may part within the step.
     /// `acceleration` is that of a contact's first centre relative to its second body, as it was
     /// evaluated last (m/s^2).
-    pub(crate) fn correct_onsets<const PAIRS: bool, const END: bool>(
+    pub(super) fn correct_onsets<K: ContactKind, const END: bool>(
         &mut self,
         law: &L,
         only: Option<&L::Coefficients>,
@@ -348,8 +363,8 @@ impl<L: ForceLaw> Batch<L> {
             if Onset::is_near(self.overlap[n], self.approach[n], step_time.time_step) {
                 let kind = only.copied().unwrap_or_else(|| self.kinds[n]);
                 let (contact, answer, memory) =
-                    self.evaluate_contact::<PAIRS>(law, &kind, n, step_time, acceleration(n));
-                self.store::<PAIRS, false, true>(n, contact.normal, &answer);
+                    self.evaluate_contact::<K>(law, &kind, n, step_time, acceleration(n));
+                self.store::<K, Volume, true>(n, contact.normal, &answer);
                 if END {
                     self.advanced[n] = memory;
                 }
@@ -359,7 +374,7 @@ impl<L: ForceLaw> Batch<L> {
 
     /// A contact, the answer of the `law` with coefficients `kind`, and what the contact remembers
     /// at the end of the step.
-    pub(crate) fn evaluate_contact<const PAIRS: bool>(
+    pub(super) fn evaluate_contact<K: ContactKind>(
         &self,
         law: &L,
         kind: &L::Coefficients,
@@ -368,7 +383,7 @@ impl<L: ForceLaw> Batch<L> {
         acceleration: DVec3,
     ) -> (Contact, ContactForce, ContactMemory<L>) {
         let time_step = step_time.time_step;
-        let (contact, memory) = (self.contact::<PAIRS, false>(n, step_time), &self.memory[n]);
+        let (contact, memory) = (self.contact::<K, Volume>(n, step_time), &self.memory[n]);
         let (overlap, approach) = (contact.overlap, contact.approach_speed());
         if law.corrects_onset() && Onset::is_near(overlap, approach, time_step) {
             let onset = Onset::new(time_step, acceleration.dot(contact.normal));
@@ -381,31 +396,31 @@ impl<L: ForceLaw> Batch<L> {
 
     /// Force on the first body of a contact, in N; the second feels the opposite.
     #[inline(always)]
-    pub(crate) const fn push(&self, n: usize) -> DVec3 {
+    pub(super) const fn push(&self, n: usize) -> DVec3 {
         self.push.get(n)
     }
 
     /// Torques on the two bodies of a contact, in N m.
     #[inline(always)]
-    pub(crate) const fn torques(&self, n: usize) -> [DVec3; 2] {
+    pub(super) const fn torques(&self, n: usize) -> [DVec3; 2] {
         [self.torques[0].get(n), self.torques[1].get(n)]
     }
 
     /// What the contacts remember at the end of the step.
     #[inline(always)]
-    pub(crate) const fn advanced(&self) -> &[ContactMemory<L>; BATCH_SIZE] {
+    pub(super) const fn advanced(&self) -> &[ContactMemory<L>; BATCH_SIZE] {
         &self.advanced
     }
 
     /// The overlap of a contact in m.
     #[inline(always)]
-    pub(crate) const fn overlap(&self, n: usize) -> f64 {
+    pub(super) const fn overlap(&self, n: usize) -> f64 {
         self.overlap[n]
     }
 
     /// The largest overlap in m.
     #[inline(always)]
-    pub(crate) fn largest_overlap(&self) -> f64 {
+    pub(super) fn largest_overlap(&self) -> f64 {
         let overlaps = &self.overlap[..self.count.min(BATCH_SIZE)];
         let deeper = |deepest, overlap: &f64| at_least(*overlap, deepest);
         overlaps.iter().fold(0.0, deeper)

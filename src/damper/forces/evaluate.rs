@@ -7,12 +7,13 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::batch::{BATCH_SIZE, Batch};
+use super::batch::{BATCH_SIZE, Batch, SpherePair, SphereWall};
 use super::report::{report_pairs, report_walls};
+use super::sums::Sums;
 use crate::cavity::Cavity;
 use crate::contact::{Partner, WallLoad};
 use crate::damper::neighbours::{Block, ContactId, NeighbourList, make_room};
-use crate::damper::state::{StateView, scale};
+use crate::damper::state::{Plane, Space, StateView, Volume};
 use crate::law::{ContactLaw, ForceLaw};
 use crate::observer::Observer;
 
@@ -69,51 +70,78 @@ impl<L: ForceLaw> BlockForces<L> {
         block.clear_results();
         block.contacts = block.contact_count();
         if view.planar {
-            let sums = Sums::<true>::new(force, torque);
-            self.evaluate_lists::<C, O, END, true>(block, view, gravity, sums, observer)
+            let sums = Sums::<Plane>::new(force, torque, block.indices.start);
+            self.evaluate_lists::<C, O, Plane, END>(block, view, gravity, sums, observer)
         } else {
-            let sums = Sums::<false>::new(force, torque);
-            self.evaluate_lists::<C, O, END, false>(block, view, gravity, sums, observer)
+            let sums = Sums::<Volume>::new(force, torque, block.indices.start);
+            self.evaluate_lists::<C, O, Volume, END>(block, view, gravity, sums, observer)
         }
     }
 
-    fn evaluate_lists<C: Cavity, O: Observer, const END: bool, const PLANAR: bool>(
+    fn evaluate_lists<C: Cavity, O: Observer, S: Space, const END: bool>(
         &mut self,
         block: &mut Block<L>,
         view: &StateView<'_, C, L>,
         gravity: DVec3,
-        mut sums: Sums<'_, PLANAR>,
+        mut sums: Sums<'_, S>,
         observer: &mut O,
     ) -> bool {
-        let base = block.indices.start;
-        let batch = &mut *self.batch;
+        self.batch.begin_pairs(view.coefficients.only_radius());
+        let deepest = [
+            self.add_pairs::<C, O, S, END>(block, view, &mut sums, observer),
+            self.add_halo::<C, O, S, END>(block, view, &mut sums, observer),
+            self.add_walls::<C, O, S, END>(block, view, &mut sums, observer),
+        ];
+        block.largest_overlap = deepest.into_iter().fold(0.0, f64::max);
+        sums.accelerate(view, block.indices.clone(), gravity)
+    }
+
+    /// Adds the forces of the pairs within the block. Returns the largest overlap in m.
+    fn add_pairs<C: Cavity, O: Observer, S: Space, const END: bool>(
+        &mut self,
+        block: &mut Block<L>,
+        view: &StateView<'_, C, L>,
+        sums: &mut Sums<'_, S>,
+        observer: &mut O,
+    ) -> f64 {
+        let (list, batch) = (&mut block.pairs, &mut *self.batch);
         let mut deepest = 0.0_f64;
-        batch.begin_pairs(view.coefficients.only_radius());
-        let list = &mut block.pairs;
         for run in runs(list.contacts.len()) {
-            evaluate_pairs::<C, L, END, PLANAR>(view, list, batch, run.clone());
+            evaluate_pairs::<C, L, S, END>(view, list, batch, run.clone());
             deepest = deepest.max(batch.largest_overlap());
             let bodies = &list.contacts.bodies()[run.clone()];
             for (n, [i, j]) in bodies.iter().take(BATCH_SIZE).enumerate() {
-                let (i, j) = (*i as usize - base, *j as usize - base);
                 let (push, [first, second]) = (batch.push(n), batch.torques(n));
-                sums.add(i, push, first);
-                sums.add(j, -push, second);
+                sums.add(*i as usize, push, first);
+                sums.add(*j as usize, -push, second);
             }
             if END && observer.wants_contacts() {
                 report_pairs(view, list, batch, run, observer);
             }
         }
-        let list = &mut block.halo;
+        deepest
+    }
+
+    /// Adds the forces of pairs with particles of later blocks, as far as they act on this one, and keeps
+    /// the rest as halo forces. Returns the largest overlap in m.
+    fn add_halo<C: Cavity, O: Observer, S: Space, const END: bool>(
+        &mut self,
+        block: &mut Block<L>,
+        view: &StateView<'_, C, L>,
+        sums: &mut Sums<'_, S>,
+        observer: &mut O,
+    ) -> f64 {
+        let (list, batch) = (&mut block.halo, &mut *self.batch);
+        let mut deepest = 0.0_f64;
         for run in runs(list.contacts.len()) {
-            evaluate_pairs::<C, L, END, PLANAR>(view, list, batch, run.clone());
+            evaluate_pairs::<C, L, S, END>(view, list, batch, run.clone());
             deepest = deepest.max(batch.largest_overlap());
             for (n, [i, j]) in list.contacts.bodies()[run.clone()].iter().enumerate() {
                 let (push, [first, second]) = (batch.push(n), batch.torques(n));
                 let both = [(*i, push, first), (*j, -push, second)];
                 for (index, force, torque) in both {
                     if block.indices.contains(&(index as usize)) {
-                        sums.add(index as usize - base, force, torque);
+                        sums.add(index as usize, force, torque);
                     } else {
                         self.halo_forces.push(HaloForce {
                             index,
@@ -127,17 +155,29 @@ impl<L: ForceLaw> BlockForces<L> {
                 report_pairs(view, list, batch, run, observer);
             }
         }
-        let list = &mut block.walls;
+        deepest
+    }
+
+    /// Adds the forces of the walls, and the loads on them. Returns the largest overlap in m.
+    fn add_walls<C: Cavity, O: Observer, S: Space, const END: bool>(
+        &mut self,
+        block: &mut Block<L>,
+        view: &StateView<'_, C, L>,
+        sums: &mut Sums<'_, S>,
+        observer: &mut O,
+    ) -> f64 {
+        let (list, batch) = (&mut block.walls, &mut *self.batch);
+        let mut deepest = 0.0_f64;
         for run in runs(list.contacts.len()) {
-            evaluate_walls::<C, L, END, PLANAR>(view, list, batch, run.clone());
+            evaluate_walls::<C, L, S, END>(view, list, batch, run.clone());
             deepest = deepest.max(batch.largest_overlap());
             for (n, [index, wall]) in list.contacts.bodies()[run.clone()].iter().enumerate() {
                 let (push, [turn, _]) = (batch.push(n), batch.torques(n));
                 let index = *index as usize;
-                sums.add(index - base, push, turn);
+                sums.add(index, push, turn);
                 let compartment = view.compartment_of_wall(*wall);
-                let place = view.position.get(index) - compartment.motion.position;
-                self.loads[*wall as usize].react(push, turn, place);
+                let arm = view.position.get(index) - compartment.motion.position;
+                self.loads[*wall as usize].react(push, turn, arm);
                 if batch.overlap(n) > view.radius[index] {
                     let partner = Partner::Wall(wall - compartment.first_wall);
                     block.escaped = Some(ContactId { index, partner });
@@ -147,74 +187,7 @@ impl<L: ForceLaw> BlockForces<L> {
                 report_walls(view, list, batch, run, observer);
             }
         }
-        block.largest_overlap = deepest;
-        sums.accelerate(view, block.indices.clone(), gravity)
-    }
-}
-
-/// Where the forces and torques on the particles of a block are summed up. With `PLANAR` forces have
-/// no z, and torques nothing else.
-struct Sums<'a, const PLANAR: bool> {
-    plane: (&'a mut [[f64; 2]], &'a mut [f64]),
-    space: (&'a mut [[f64; 3]], &'a mut [[f64; 3]]),
-}
-
-impl<'a, const PLANAR: bool> Sums<'a, PLANAR> {
-    fn new(force: &'a mut [f64], torque: &'a mut [f64]) -> Self {
-        // Columns of one length, so that one comparison stands for both bounds.
-        if PLANAR {
-            let (force, _) = force.as_chunks_mut();
-            let torque = &mut torque[..force.len()];
-            Self {
-                plane: (force, torque),
-                space: (&mut [], &mut []),
-            }
-        } else {
-            let (force, _) = force.as_chunks_mut();
-            let (torque, _) = torque.as_chunks_mut();
-            let torque = &mut torque[..force.len()];
-            Self {
-                plane: (&mut [], &mut []),
-                space: (force, torque),
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn add(&mut self, n: usize, force: DVec3, torque: DVec3) {
-        if PLANAR {
-            let (forces, torques) = &mut self.plane;
-            forces[n][0] += force.x;
-            forces[n][1] += force.y;
-            torques[n] += torque.z;
-        } else {
-            let (forces, torques) = &mut self.space;
-            let add = |sum: &mut [f64; 3], vector: DVec3| {
-                *sum = (DVec3::from_array(*sum) + vector).to_array();
-            };
-            add(&mut forces[n], force);
-            add(&mut torques[n], torque);
-        }
-    }
-
-    /// Turns the sums, which are those of the particles at `indices`, into accelerations. Returns whether all are finite.
-    fn accelerate<C, L: ContactLaw>(
-        &mut self,
-        view: &StateView<'_, C, L>,
-        indices: Range<usize>,
-        gravity: DVec3,
-    ) -> bool {
-        let inverse_mass = &view.inverse_mass[indices.clone()];
-        let inverse_inertia = &view.inverse_inertia[indices];
-        let DVec3 { x, y, z } = gravity;
-        if PLANAR {
-            let (forces, torques) = &mut self.plane;
-            let (torques, _) = torques.as_chunks_mut();
-            scale(forces, inverse_mass, [x, y]) & scale(torques, inverse_inertia, [0.0])
-        } else {
-            let (forces, torques) = &mut self.space;
-            scale(forces, inverse_mass, [x, y, z]) & scale(torques, inverse_inertia, [0.0; 3])
-        }
+        deepest
     }
 }
 
@@ -226,7 +199,7 @@ fn runs(contacts: usize) -> impl Iterator<Item = Range<usize>> {
 
 /// Has the law answer a run of touching pairs.
 #[inline(always)]
-fn evaluate_pairs<C: Cavity, L: ForceLaw, const END: bool, const PLANAR: bool>(
+fn evaluate_pairs<C: Cavity, L: ForceLaw, S: Space, const END: bool>(
     view: &StateView<'_, C, L>,
     list: &mut NeighbourList<L>,
     batch: &mut Batch<L>,
@@ -234,7 +207,7 @@ fn evaluate_pairs<C: Cavity, L: ForceLaw, const END: bool, const PLANAR: bool>(
 ) {
     let bodies = &list.contacts.bodies()[run.clone()];
     let candidates = &list.contacts.candidates()[run.clone()];
-    batch.gather_pairs::<C, PLANAR>(view, bodies);
+    batch.gather_pairs::<C, S>(view, bodies);
     list.load_memories(run.clone(), view.stamp, batch.memory_mut());
     let kinds = bodies.iter().zip(candidates).map(|([i, j], candidate)| {
         let first = view.species[*i as usize];
@@ -243,10 +216,10 @@ fn evaluate_pairs<C: Cavity, L: ForceLaw, const END: bool, const PLANAR: bool>(
         view.coefficients.pair(first, second, own)
     });
     let only = view.coefficients.only_pair();
-    batch.evaluate::<true, END, PLANAR>(view.law, only, kinds, view.step_time);
+    batch.evaluate::<SpherePair, S, END>(view.law, only, kinds, view.step_time);
     if view.law.corrects_onset() {
         let acceleration = |n: usize| acceleration_of_pair(view, bodies[n]);
-        batch.correct_onsets::<true, END>(view.law, only, view.step_time, acceleration);
+        batch.correct_onsets::<SpherePair, END>(view.law, only, view.step_time, acceleration);
     }
     if END {
         list.store_memories(run, view.stamp.wrapping_add(1), batch.advanced());
@@ -255,7 +228,7 @@ fn evaluate_pairs<C: Cavity, L: ForceLaw, const END: bool, const PLANAR: bool>(
 
 /// Has the law answer a run of touching walls.
 #[inline(always)]
-fn evaluate_walls<C: Cavity, L: ForceLaw, const END: bool, const PLANAR: bool>(
+fn evaluate_walls<C: Cavity, L: ForceLaw, S: Space, const END: bool>(
     view: &StateView<'_, C, L>,
     list: &mut NeighbourList<L>,
     batch: &mut Batch<L>,
@@ -269,10 +242,10 @@ fn evaluate_walls<C: Cavity, L: ForceLaw, const END: bool, const PLANAR: bool>(
         *view.coefficients.wall(species)
     });
     let only = view.coefficients.only_wall();
-    batch.evaluate::<false, END, PLANAR>(view.law, only, kinds, view.step_time);
+    batch.evaluate::<SphereWall, S, END>(view.law, only, kinds, view.step_time);
     if view.law.corrects_onset() {
         let acceleration = |n: usize| view.acceleration.get(bodies[n][0] as usize);
-        batch.correct_onsets::<false, END>(view.law, only, view.step_time, acceleration);
+        batch.correct_onsets::<SphereWall, END>(view.law, only, view.step_time, acceleration);
     }
     if END {
         list.store_memories(run, view.stamp.wrapping_add(1), batch.advanced());

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::batch::Batch;
+use super::batch::{Batch, SpherePair, SphereWall};
 use super::evaluate::acceleration_of_pair;
 use crate::cavity::Cavity;
 use crate::contact::Partner;
@@ -29,7 +29,7 @@ pub(super) fn report_pairs<C: Cavity, L: ForceLaw>(
         let kind = view.coefficients.pair(first, second, prepared);
         let acceleration = acceleration_of_pair(view, bodies);
         let (contact, force, memory) =
-            batch.evaluate_contact::<true>(view.law, &kind, n, view.step_time, acceleration);
+            batch.evaluate_contact::<SpherePair>(view.law, &kind, n, view.step_time, acceleration);
         observer.contact(&ContactEvent {
             particle: view.id[index] as usize,
             partner: Partner::Particle(view.id[other] as usize),
@@ -59,7 +59,7 @@ pub(super) fn report_walls<C: Cavity, L: ForceLaw>(
         let kind = view.coefficients.wall(view.species[index]);
         let acceleration = view.acceleration.get(index);
         let (contact, force, memory) =
-            batch.evaluate_contact::<false>(view.law, kind, n, view.step_time, acceleration);
+            batch.evaluate_contact::<SphereWall>(view.law, kind, n, view.step_time, acceleration);
         observer.contact(&ContactEvent {
             particle: view.id[index] as usize,
             partner: Partner::Wall(wall - view.compartment_of_wall(wall).first_wall),

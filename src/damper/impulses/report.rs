@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::{ImpulseSolver, SolverStep};
 use crate::cavity::Cavity;
 use crate::contact::{Contact, Partner, Stored};
-use crate::damper::state::{Space, State, surface_velocity};
+use crate::damper::state::{Space, State, Volume, surface_velocity};
 use crate::law::ContactLaw;
 use crate::mount::Mount;
 use crate::observer::{ContactEvent, Observer};
@@ -62,7 +62,7 @@ impl<S: Space> ImpulseSolver<S> {
         let own = motions(index);
         let [velocity, left] = [0, 1].map(|end| {
             let spins = [own[end].1, others[end].1];
-            surface_velocity::<false>(normal, own[end].0 - others[end].0, spins, levers)
+            surface_velocity::<Volume>(normal, own[end].0 - others[end].0, spins, levers)
         });
         let [spin, spin_left] = [0, 1].map(|end| own[end].1 - others[end].1);
         let overlap = (1.0 - constraint.lever) * (radii[0] + radii[1]);

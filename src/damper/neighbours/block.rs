@@ -11,7 +11,7 @@ use glam::DVec3;
 use super::list::{ContactRecord, NeighbourList};
 use crate::cavity::Cavity;
 use crate::contact::Partner;
-use crate::damper::state::{Rows, StateView};
+use crate::damper::state::{Plane, Rows, Space, StateView, Volume};
 use crate::law::{ContactLaw, ContactMemory};
 
 /// How many particles make a block at the least; a bed of no more is one block.
@@ -118,16 +118,16 @@ impl<L: ContactLaw> Block<L> {
             let limit = 0.25 * compartment.margin * compartment.margin;
             let origin = compartment.motion.position;
             trusted &= if view.planar {
-                all_within::<true>(now, then, origin, limit)
+                all_within::<Plane>(now, then, origin, limit)
             } else {
-                all_within::<false>(now, then, origin, limit)
+                all_within::<Volume>(now, then, origin, limit)
             };
         }
         for list in [&mut self.pairs, &mut self.halo] {
             if view.planar {
-                find_pairs::<C, L, true>(view, list, prediction_distance);
+                find_pairs::<C, L, Plane>(view, list, prediction_distance);
             } else {
-                find_pairs::<C, L, false>(view, list, prediction_distance);
+                find_pairs::<C, L, Volume>(view, list, prediction_distance);
             }
         }
 
@@ -202,31 +202,28 @@ impl<L: ContactLaw> Block<L> {
 
 /// Lists the pairs in contact.
 #[inline(always)]
-fn find_pairs<C, L: ContactLaw, const PLANAR: bool>(
+fn find_pairs<C, L: ContactLaw, S: Space>(
     view: &StateView<'_, C, L>,
     list: &mut NeighbourList<L>,
     prediction_distance: f64,
 ) {
-    let position = view.position.polar::<PLANAR>(view.radius.len());
+    let position = &S::rows(view.position.flat())[..view.radius.len()];
 
     list.find(|i, j, touching| {
         let limit = touching + prediction_distance;
-        position.get(i).distance_squared(position.get(j as usize)) < limit * limit
+        let apart = S::from_row(position[i]) - S::from_row(position[j as usize]);
+        S::dot(apart, apart) < limit * limit
     });
 }
 
 /// Whether all points `now` are nearer to those `then`, seen from `origin`, than the root of `limit`.
-fn all_within<const PLANAR: bool>(
-    now: Rows<'_>,
-    then: Rows<'_>,
-    origin: DVec3,
-    limit: f64,
-) -> bool {
-    let count = now.len();
-    let (now, then) = (now.polar::<PLANAR>(count), then.polar::<PLANAR>(count));
+fn all_within<S: Space>(now: Rows<'_>, then: Rows<'_>, origin: DVec3, limit: f64) -> bool {
+    let (now, then) = (S::rows(now.flat()), S::rows(then.flat()));
+    let origin = S::vector(origin);
     let mut within = true;
-    for n in 0..count {
-        within &= (now.get(n) - origin - then.get(n)).length_squared() <= limit;
+    for (now, then) in now.iter().zip(then) {
+        let moved = S::from_row(*now) - origin - S::from_row(*then);
+        within &= S::dot(moved, moved) <= limit;
     }
     within
 }

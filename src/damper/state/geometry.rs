@@ -6,19 +6,16 @@
 
 use glam::DVec3;
 
-use super::vectors::polar;
+use super::space::Space;
 use crate::contact::ContactForce;
 
 /// Normal, and overlap in m, of two spheres whose centres are `towards` apart, from the second to the
 /// first. Coincident centres have no normal and feel no force.
 #[inline(always)]
-pub(crate) fn normal_and_overlap<const PLANAR: bool>(
-    towards: DVec3,
-    radii: [f64; 2],
-) -> (DVec3, f64) {
+pub(crate) fn normal_and_overlap<S: Space>(towards: DVec3, radii: [f64; 2]) -> (DVec3, f64) {
     let distance = towards.length();
     let inverse = 1.0 / (distance + f64::MIN_POSITIVE);
-    let normal = polar::<PLANAR>(towards * inverse);
+    let normal = S::flattened(towards * inverse);
     (normal, radii[0] + radii[1] - distance)
 }
 
@@ -33,24 +30,24 @@ pub(crate) fn levers(radii: [f64; 2], overlap: f64) -> [f64; 2] {
 /// Velocity of one surface relative to the other in m/s. `velocity` is that of the first centre
 /// relative to the second body; a wall has no lever.
 #[inline(always)]
-pub(crate) fn surface_velocity<const PLANAR: bool>(
+pub(crate) fn surface_velocity<S: Space>(
     normal: DVec3,
     velocity: DVec3,
     spins: [DVec3; 2],
     levers: [f64; 2],
 ) -> DVec3 {
     let turning = spins[0] * levers[0] + spins[1] * levers[1];
-    polar::<PLANAR>(velocity - turning.cross(normal))
+    S::flattened(velocity - turning.cross(normal))
 }
 
 /// Force on the first of two bodies, and torques on both. Without `COUPLE` the answer has none.
 #[inline(always)]
-pub(crate) fn force_and_torques<const PLANAR: bool, const COUPLE: bool>(
+pub(crate) fn force_and_torques<S: Space, const COUPLE: bool>(
     normal: DVec3,
     levers: [f64; 2],
     answer: &ContactForce,
 ) -> (DVec3, [DVec3; 2]) {
-    let tangential = polar::<PLANAR>(answer.tangential);
+    let tangential = S::flattened(answer.tangential);
     let turn = tangential.cross(normal);
     let [mut first, mut second] = levers.map(|lever| turn * lever);
     if COUPLE {

@@ -8,7 +8,11 @@ use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
 use glam::{DMat3, DVec2, DVec3};
 
-use crate::law::{at_least, at_most};
+mod plane;
+mod volume;
+
+pub(crate) use plane::Plane;
+pub(crate) use volume::Volume;
 
 /// What adds up and is multiplied by numbers.
 pub(crate) trait Linear:
@@ -31,6 +35,8 @@ impl Linear for DVec3 {}
 
 /// Where bodies move.
 pub(crate) trait Space: Copy + Debug + Default + Send + Sync + 'static {
+    /// Whether it is the plane.
+    const PLANAR: bool;
     /// How many numbers make a vector.
     const WIDTH: usize;
     /// Velocities, directions, forces.
@@ -57,6 +63,26 @@ pub(crate) trait Space: Copy + Debug + Default + Send + Sync + 'static {
     fn spin(spin: DVec3) -> Self::Spin;
     fn spin_in_space(spin: Self::Spin) -> DVec3;
 
+    /// A vector as it is here, in space: the compiler sees what is always zero.
+    #[inline(always)]
+    fn flattened(vector: DVec3) -> DVec3 {
+        Self::in_space(Self::vector(vector))
+    }
+    /// A spin, likewise.
+    #[inline(always)]
+    fn flattened_spin(spin: DVec3) -> DVec3 {
+        Self::spin_in_space(Self::spin(spin))
+    }
+
+    /// Turns forces and torques, in place, into accelerations: multiplies them by the inverses of mass and
+    /// moment of inertia, and adds `gravity` (m/s^2). Returns whether all are finite.
+    fn accelerate(
+        forces: &mut [Self::Row],
+        torques: &mut [Self::SpinRow],
+        inverses: [&[f64]; 2],
+        gravity: DVec3,
+    ) -> bool;
+
     fn dot(a: Self::Vector, b: Self::Vector) -> f64;
     fn spin_dot(a: Self::Spin, b: Self::Spin) -> f64;
     fn transform(matrix: &DMat3, vector: Self::Vector) -> Self::Vector;
@@ -78,246 +104,4 @@ pub(crate) trait Space: Copy + Debug + Default + Send + Sync + 'static {
     fn shorten(tangent: Self::Tangent, length: f64) -> Self::Tangent;
     /// A spin, likewise.
     fn shorten_spin(spin: Self::Spin, length: f64) -> Self::Spin;
-}
-
-/// The plane z = 0. A tangent is the component along the normal turned by a quarter.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Plane;
-
-impl Space for Plane {
-    const WIDTH: usize = 2;
-    type Vector = DVec2;
-    type Tangent = f64;
-    type Spin = f64;
-    type Row = [f64; 2];
-    type SpinRow = f64;
-
-    #[inline(always)]
-    fn rows(column: &[f64]) -> &[[f64; 2]] {
-        column.as_chunks().0
-    }
-
-    #[inline(always)]
-    fn rows_mut(column: &mut [f64]) -> &mut [[f64; 2]] {
-        column.as_chunks_mut().0
-    }
-
-    #[inline(always)]
-    fn spin_rows(column: &[f64]) -> &[f64] {
-        column
-    }
-
-    #[inline(always)]
-    fn spin_rows_mut(column: &mut [f64]) -> &mut [f64] {
-        column
-    }
-
-    #[inline(always)]
-    fn from_row(row: [f64; 2]) -> DVec2 {
-        DVec2::from_array(row)
-    }
-
-    #[inline(always)]
-    fn row(vector: DVec2) -> [f64; 2] {
-        vector.to_array()
-    }
-
-    #[inline(always)]
-    fn from_spin_row(row: f64) -> f64 {
-        row
-    }
-
-    #[inline(always)]
-    fn spin_row(spin: f64) -> f64 {
-        spin
-    }
-
-    #[inline(always)]
-    fn vector(vector: DVec3) -> DVec2 {
-        vector.truncate()
-    }
-
-    #[inline(always)]
-    fn in_space(vector: DVec2) -> DVec3 {
-        vector.extend(0.0)
-    }
-
-    #[inline(always)]
-    fn spin(spin: DVec3) -> f64 {
-        spin.z
-    }
-
-    #[inline(always)]
-    fn spin_in_space(spin: f64) -> DVec3 {
-        DVec3::new(0.0, 0.0, spin)
-    }
-
-    #[inline(always)]
-    fn dot(a: DVec2, b: DVec2) -> f64 {
-        a.dot(b)
-    }
-
-    #[inline(always)]
-    fn spin_dot(a: f64, b: f64) -> f64 {
-        a * b
-    }
-
-    #[inline(always)]
-    fn transform(matrix: &DMat3, vector: DVec2) -> DVec2 {
-        matrix.x_axis.truncate() * vector.x + matrix.y_axis.truncate() * vector.y
-    }
-
-    #[inline(always)]
-    fn slip(normal: DVec2, velocity: DVec2, _along: f64, turning: f64) -> f64 {
-        normal.perp_dot(velocity) - turning
-    }
-
-    #[inline(always)]
-    fn tangent(normal: DVec2, vector: DVec2) -> f64 {
-        normal.perp_dot(vector)
-    }
-
-    #[inline(always)]
-    fn across(normal: DVec2, tangent: f64) -> DVec2 {
-        normal.perp() * tangent
-    }
-
-    #[inline(always)]
-    fn turn(_normal: DVec2, tangent: f64) -> f64 {
-        -tangent
-    }
-
-    #[inline(always)]
-    fn shorten(tangent: f64, length: f64) -> f64 {
-        at_most(at_least(tangent, -length), length)
-    }
-
-    #[inline(always)]
-    fn shorten_spin(spin: f64, length: f64) -> f64 {
-        Self::shorten(spin, length)
-    }
-}
-
-/// All three dimensions. A tangent is a vector across the normal.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Volume;
-
-impl Space for Volume {
-    const WIDTH: usize = 3;
-    type Vector = DVec3;
-    type Tangent = DVec3;
-    type Spin = DVec3;
-    type Row = [f64; 3];
-    type SpinRow = [f64; 3];
-
-    #[inline(always)]
-    fn rows(column: &[f64]) -> &[[f64; 3]] {
-        column.as_chunks().0
-    }
-
-    #[inline(always)]
-    fn rows_mut(column: &mut [f64]) -> &mut [[f64; 3]] {
-        column.as_chunks_mut().0
-    }
-
-    #[inline(always)]
-    fn spin_rows(column: &[f64]) -> &[[f64; 3]] {
-        column.as_chunks().0
-    }
-
-    #[inline(always)]
-    fn spin_rows_mut(column: &mut [f64]) -> &mut [[f64; 3]] {
-        column.as_chunks_mut().0
-    }
-
-    #[inline(always)]
-    fn from_row(row: [f64; 3]) -> DVec3 {
-        DVec3::from_array(row)
-    }
-
-    #[inline(always)]
-    fn row(vector: DVec3) -> [f64; 3] {
-        vector.to_array()
-    }
-
-    #[inline(always)]
-    fn from_spin_row(row: [f64; 3]) -> DVec3 {
-        DVec3::from_array(row)
-    }
-
-    #[inline(always)]
-    fn spin_row(spin: DVec3) -> [f64; 3] {
-        spin.to_array()
-    }
-
-    #[inline(always)]
-    fn vector(vector: DVec3) -> DVec3 {
-        vector
-    }
-
-    #[inline(always)]
-    fn in_space(vector: DVec3) -> DVec3 {
-        vector
-    }
-
-    #[inline(always)]
-    fn spin(spin: DVec3) -> DVec3 {
-        spin
-    }
-
-    #[inline(always)]
-    fn spin_in_space(spin: DVec3) -> DVec3 {
-        spin
-    }
-
-    #[inline(always)]
-    fn dot(a: DVec3, b: DVec3) -> f64 {
-        a.dot(b)
-    }
-
-    #[inline(always)]
-    fn spin_dot(a: DVec3, b: DVec3) -> f64 {
-        a.dot(b)
-    }
-
-    #[inline(always)]
-    fn transform(matrix: &DMat3, vector: DVec3) -> DVec3 {
-        *matrix * vector
-    }
-
-    #[inline(always)]
-    fn slip(normal: DVec3, velocity: DVec3, along: f64, turning: DVec3) -> DVec3 {
-        velocity - normal * along - turning.cross(normal)
-    }
-
-    #[inline(always)]
-    fn tangent(normal: DVec3, vector: DVec3) -> DVec3 {
-        vector - normal * vector.dot(normal)
-    }
-
-    #[inline(always)]
-    fn across(_normal: DVec3, tangent: DVec3) -> DVec3 {
-        tangent
-    }
-
-    #[inline(always)]
-    fn turn(normal: DVec3, tangent: DVec3) -> DVec3 {
-        tangent.cross(normal)
-    }
-
-    #[inline(always)]
-    fn shorten(tangent: DVec3, length: f64) -> DVec3 {
-        let square = tangent.length_squared();
-        // Not the other way round: a length that is no number has to show.
-        if square <= length * length {
-            tangent
-        } else {
-            tangent * (length / square.sqrt())
-        }
-    }
-
-    #[inline(always)]
-    fn shorten_spin(spin: DVec3, length: f64) -> DVec3 {
-        Self::shorten(spin, length)
-    }
 }

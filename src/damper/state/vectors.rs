@@ -162,11 +162,6 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// How many there are.
-    pub(crate) const fn len(&self) -> usize {
-        self.values.len() / self.axes.width()
-    }
-
     /// The numbers one after the other.
     pub(crate) const fn flat(&self) -> &'a [f64] {
         self.values
@@ -177,84 +172,6 @@ impl<'a> Rows<'a> {
         let width = self.axes.width();
         let values = &self.values[width * indices.start..width * indices.end];
         Self { values, ..*self }
-    }
-
-    /// Velocities, forces or places of `count` bodies, for loops. If `PLANAR`, they are in the plane z = 0.
-    #[inline(always)]
-    pub(crate) fn polar<const PLANAR: bool>(&self, count: usize) -> Polar<'a, PLANAR> {
-        let (plane, space): (&[[f64; 2]], &[[f64; 3]]) = if PLANAR {
-            (&self.values.as_chunks().0[..count], &[])
-        } else {
-            (&[], &self.values.as_chunks().0[..count])
-        };
-        Polar { plane, space }
-    }
-
-    /// Spins or torques of `count` bodies, for loops. If `PLANAR`, they turn in that plane.
-    #[inline(always)]
-    pub(crate) fn axial<const PLANAR: bool>(&self, count: usize) -> Axial<'a, PLANAR> {
-        let (plane, space): (&[f64], &[[f64; 3]]) = if PLANAR {
-            (&self.values[..count], &[])
-        } else {
-            (&[], &self.values.as_chunks().0[..count])
-        };
-        Axial { plane, space }
-    }
-}
-
-/// Velocities, forces or places of which the compiler knows how many components they have.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Polar<'a, const PLANAR: bool> {
-    plane: &'a [[f64; 2]],
-    space: &'a [[f64; 3]],
-}
-
-impl<const PLANAR: bool> Polar<'_, PLANAR> {
-    /// A vector.
-    #[inline(always)]
-    pub(crate) fn get(&self, n: usize) -> DVec3 {
-        if PLANAR {
-            let [x, y] = self.plane[n];
-            DVec3::new(x, y, 0.0)
-        } else {
-            DVec3::from_array(self.space[n])
-        }
-    }
-}
-
-/// Spins or torques of which the compiler knows how many components they have.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Axial<'a, const PLANAR: bool> {
-    plane: &'a [f64],
-    space: &'a [[f64; 3]],
-}
-
-impl<const PLANAR: bool> Axial<'_, PLANAR> {
-    /// A vector.
-    #[inline(always)]
-    pub(crate) fn get(&self, n: usize) -> DVec3 {
-        if PLANAR {
-            DVec3::new(0.0, 0.0, self.plane[n])
-        } else {
-            DVec3::from_array(self.space[n])
-        }
-    }
-}
-
-/// A velocity, force or direction. If `PLANAR`, it is in the plane z = 0, and the compiler sees so.
-#[inline(always)]
-pub(crate) const fn polar<const PLANAR: bool>(vector: DVec3) -> DVec3 {
-    let z = if PLANAR { 0.0 } else { vector.z };
-    DVec3::new(vector.x, vector.y, z)
-}
-
-/// A spin or torque. If `PLANAR`, it turns in that plane, and the compiler sees so.
-#[inline(always)]
-pub(crate) const fn axial<const PLANAR: bool>(vector: DVec3) -> DVec3 {
-    if PLANAR {
-        DVec3::new(0.0, 0.0, vector.z)
-    } else {
-        vector
     }
 }
 
