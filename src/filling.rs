@@ -4,6 +4,7 @@ mod filler;
 mod lattice;
 mod occupied;
 mod plan;
+mod throughout;
 
 use glam::{DVec3, dvec3};
 
@@ -45,6 +46,7 @@ const SMALLEST: f64 = 1e-9;
 pub struct Filling {
     seed: u64,
     down: DVec3,
+    throughout: bool,
     kinds: Vec<(usize, Particle)>,
 }
 
@@ -93,6 +95,7 @@ impl Filling {
         Self {
             seed,
             down: DVec3::NEG_Y,
+            throughout: false,
             kinds: Vec::new(),
         }
     }
@@ -106,6 +109,14 @@ impl Filling {
     /// Starts from where `down` (of any length) points to, instead of from the low end of y.
     pub const fn down(mut self, down: DVec3) -> Self {
         self.down = down;
+        self
+    }
+
+    /// Spreads the particles at random through the whole room instead of near the floor, as they are without
+    /// gravity. Where they are too many to be strewn (from about a third of the room on), they stand on
+    /// places taken at random from a lattice that fills the room.
+    pub const fn throughout(mut self) -> Self {
+        self.throughout = true;
         self
     }
 
@@ -126,7 +137,22 @@ impl Filling {
         let (mut best, mut radius) = (0, 0.0);
         let mut tried = Vec::new();
         let mut random = Random::new(self.seed);
-        for way in plan::plans(&frame, &sizes) {
+        let ways = plan::plans(&frame, &sizes);
+        if let (true, Some(&plan)) = (self.throughout, ways.first()) {
+            let mut filler = Filler {
+                cavity,
+                frame,
+                plan,
+                varied: false,
+                throughout: true,
+                random: &mut random,
+                occupied: Vec::new(),
+            };
+            if filler.scatter(&sizes, &mut bed) == wanted {
+                return Ok(bed);
+            }
+        }
+        for way in ways {
             if sizes.len() == 1 && plan::hopeless(&tried, way, wanted, frame.planar) {
                 continue;
             }
@@ -135,6 +161,7 @@ impl Filling {
                 frame,
                 plan: way,
                 varied: self.kinds.len() > 1,
+                throughout: self.throughout,
                 random: &mut random,
                 occupied: Vec::new(),
             };

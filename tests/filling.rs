@@ -300,3 +300,43 @@ fn an_exact_fit_may_be_off_by_rounding_and_by_what_may_be_squeezed() {
         "{error}"
     );
 }
+
+#[test]
+fn a_bed_without_gravity_is_spread_throughout_the_room() {
+    for cavity in cavities(0.06, 0.08, 0.05) {
+        let planar = cavity.is_planar();
+        // From a few to more than can be strewn at random.
+        for share in [0.02, 0.15, 0.3, 0.45] {
+            let [low, high] = cavity.bounds();
+            let size = high - low;
+            // A round room fills half of its bounds or more.
+            let room = size.x * size.y * if planar { 1.0 } else { size.z } * 0.52;
+            let own = |r: f64| {
+                if planar {
+                    3.14 * r * r
+                } else {
+                    4.19 * r * r * r
+                }
+            };
+            let count = (share * room / own(2e-3)) as usize;
+            let filling = Filling::new(3).with(count, ball(2e-3)).throughout();
+            let bed = filling.fill(&cavity).unwrap();
+            assert_apart(&cavity, &bed);
+            assert_eq!(bits(&bed), bits(&filling.fill(&cavity).unwrap()));
+            let middle = 0.5 * (low + high);
+            let mean = bed.iter().map(|p| p.position).sum::<DVec3>() / count as f64;
+            let off = ((mean - middle) / size).abs();
+            let chance = 1.2 / (count as f64).sqrt();
+            assert!(off.x < chance && off.y < chance, "{share} {count}: {off}");
+            assert!(planar || off.z < chance, "{share} {count}: {off}");
+        }
+    }
+    let mixed = Filling::new(1).with(50, ball(1e-3)).with(5, ball(6e-3));
+    let room = Cuboid::new(DVec3::splat(0.06)).unwrap();
+    assert_apart(&room, &mixed.throughout().fill(&room).unwrap());
+    let full = Filling::new(1).with(10_000, ball(3e-3)).throughout();
+    assert!(matches!(
+        full.fill(&room),
+        Err(FillingError::TooMuch { .. })
+    ));
+}

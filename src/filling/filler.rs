@@ -19,6 +19,8 @@ pub(super) struct Filler<'a, C: ?Sized> {
     pub(super) plan: Plan,
     /// Whether particles of a size differ.
     pub(super) varied: bool,
+    /// Whether the whole room is filled, instead of layers from the floor up.
+    pub(super) throughout: bool,
     pub(super) random: &'a mut Random,
     /// What stands already, by size.
     pub(super) occupied: Vec<Occupied>,
@@ -61,22 +63,40 @@ impl<C: Cavity + ?Sized> Filler<'_, C> {
             for row in lattice.rows(layer) {
                 self.collect(size, &lattice, lattice.row(layer, row), &mut sites);
                 // Enough to choose from, however wide the cavity.
-                if sites.len() > 4 * missing + 1000 {
+                if sites.len() > 4 * missing + 1000 && !self.throughout {
                     break;
                 }
             }
-            if sites.len() > missing {
-                self.random.shuffle(&mut sites);
+            if !self.throughout {
+                placed += self.fill_sites(&mut sites, &size.members[placed..], lattice.slack, bed);
             }
-            for site in sites.drain(..) {
-                let particle = &mut bed[size.members[placed] as usize];
-                if let Some(place) = self.place_near(site, particle.radius, lattice.slack) {
-                    particle.position = place;
-                    placed += 1;
-                    if placed == wanted {
-                        return placed;
-                    }
-                }
+            if placed == wanted {
+                return placed;
+            }
+        }
+        placed + self.fill_sites(&mut sites, &size.members[placed..], lattice.slack, bed)
+    }
+
+    /// Stands `members` near the sites, and returns how many got a place. All sites are used up.
+    fn fill_sites(
+        &mut self,
+        sites: &mut Vec<DVec3>,
+        members: &[u32],
+        slack: [f64; 3],
+        bed: &mut [Particle],
+    ) -> usize {
+        if sites.len() > members.len() {
+            self.random.shuffle(sites);
+        }
+        let mut placed = 0;
+        for site in sites.drain(..) {
+            let Some(&member) = members.get(placed) else {
+                break;
+            };
+            let particle = &mut bed[member as usize];
+            if let Some(place) = self.place_near(site, particle.radius, slack) {
+                particle.position = place;
+                placed += 1;
             }
         }
         placed
@@ -116,7 +136,6 @@ impl<C: Cavity + ?Sized> Filler<'_, C> {
 
     /// Stands a particle at a random place near `site`, or else as near as can be.
     fn place_near(&mut self, site: DVec3, radius: f64, slack: [f64; 3]) -> Option<DVec3> {
-        let radius = radius * (1.0 + GAP);
         let mut shifted = site;
         for (axis, slack) in self.frame.axes.into_iter().zip(slack) {
             shifted += axis * (slack * self.random.symmetric());
@@ -124,9 +143,14 @@ impl<C: Cavity + ?Sized> Filler<'_, C> {
         if self.frame.planar {
             shifted.z = 0.0;
         }
-        let place = self
-            .free_place(shifted, radius)
-            .or_else(|| self.free_place(site, radius))?;
+        self.place_at(shifted, radius)
+            .or_else(|| self.place_at(site, radius))
+    }
+
+    /// Stands a particle at `point`, off the walls, if there is room.
+    pub(super) fn place_at(&mut self, point: DVec3, radius: f64) -> Option<DVec3> {
+        let radius = radius * (1.0 + GAP);
+        let place = self.free_place(point, radius)?;
         if let Some(occupied) = self.occupied.last_mut() {
             occupied.add(place, radius);
         }

@@ -42,6 +42,13 @@ impl Frame {
         self.corner.length() + DVec3::from(self.extent).length()
     }
 
+    /// A point of the box, by a number from 0 to 1 along each axis.
+    pub(super) fn point(&self, mut unit: impl FnMut() -> f64) -> DVec3 {
+        (0..3).fold(self.corner, |point, axis| {
+            point + self.axes[axis] * (self.extent[axis] * unit())
+        })
+    }
+
     /// Room for centres of spheres of `radius` along an axis.
     pub(super) fn span(&self, axis: usize, radius: f64) -> f64 {
         self.extent[axis] - 2.0 * radius
