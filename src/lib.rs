@@ -112,6 +112,7 @@ mod damper;
 pub mod detector;
 mod error;
 pub mod excitation;
+pub mod fields;
 mod filling;
 pub mod guide;
 pub mod integrator;
@@ -141,6 +142,7 @@ pub use detector::{
     Skin,
 };
 pub use error::{Bound, ValueError};
+pub use fields::EffectiveFields;
 pub use filling::{Filling, FillingError};
 pub use integrator::{Integrator, RungeKutta4, VelocityVerlet};
 pub use law::{

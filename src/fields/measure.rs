@@ -1,0 +1,238 @@
+use std::ops::ControlFlow;
+
+use super::estimate::{CONFIDENCE, half_width};
+use super::point::{Cycle, Regime};
+use super::settings::{Bed, Periods};
+use super::{EffectiveFields, FieldError, Measurement, Point};
+use crate::cavity::Cavity;
+use crate::damper::Damper;
+use crate::detector::Detector;
+use crate::error::{Bound, ValueError};
+use crate::excitation::Harmonic;
+use crate::filling::Filling;
+use crate::integrator::Integrator;
+use crate::law::ContactLaw;
+use crate::mount::Shaker;
+use crate::observer::{BedRegime, EnergyLedger, Harmonics};
+use crate::particle::Particle;
+use crate::statistics::steady_state;
+
+/// Steps to a period at the least.
+const LEAST_STEPS: f64 = 40.0;
+/// When it is looked first whether a point may end, and how much later each time, as a part of the periods
+/// done: an interval that is looked at after every period is found narrow by chance.
+const FIRST_LOOK: u64 = 40;
+const NEXT_LOOK: f64 = 1.25;
+/// Part of the bed's kinetic energy below which a loss need not be known any better.
+const SMALL_LOSS: f64 = 0.1;
+
+/// How many steps of at most `longest` (s) make up a period.
+fn steps_per_period(frequency: f64, longest: f64) -> Result<u64, ValueError> {
+    // A hair of tolerance, so that a step that divides the period is taken as it is.
+    let steps = (1.0 / (frequency * longest) * (1.0 - 1e-9)).ceil();
+    // Beyond, steps could no longer be counted exactly.
+    Bound::AtMost(1e12).check("steps per period", steps)?;
+    Ok(steps.max(LEAST_STEPS) as u64)
+}
+
+impl<L, C, D, I> EffectiveFields<L, C, D, I>
+where
+    L: ContactLaw + Clone,
+    C: Cavity + Clone,
+    D: Detector + Clone,
+    I: Integrator + Clone,
+{
+    /// Measures one point, of the fields or any other: what [`run`](Self::run) makes its cell of, to the bit.
+    /// `each_period` is called at the end of every period with the number of those done, and may cancel.
+    ///
+    /// # Errors
+    /// If a number is outside its range, the cavity cannot be filled, the damper cannot be built or a step
+    /// cannot be taken, or when `each_period` breaks.
+    pub fn measure(
+        &self,
+        point: Point,
+        mut each_period: impl FnMut(u64) -> ControlFlow<()>,
+    ) -> Result<Measurement, FieldError> {
+        self.check()?;
+        let frequency = Bound::Positive.check("frequency (Hz)", point.frequency)?;
+        let amplitude = Bound::Positive.check("amplitude (m)", point.amplitude)?;
+        let steps = steps_per_period(frequency, self.time_step)?;
+        let shaker = Shaker::new(self.axis, Harmonic::new(amplitude, frequency)?)?;
+        let mut damper = Damper::builder(self.cavity.clone(), self.law.clone())
+            .particles(self.start(point, shaker.axis())?)
+            .mount(shaker)
+            .detector(self.detector.clone())
+            .integrator(self.integrator.clone())
+            .gravity(self.gravity)
+            .time_step(1.0 / (frequency * steps as f64))
+            .build()
+            .map_err(|error| FieldError::Build { point, error })?;
+        let mut measurement = Measurement {
+            point,
+            bed_mass: self.bed_size().1,
+            time_step: damper.time_step(),
+            cycles: Vec::new(),
+            discarded: 0,
+            settled: false,
+            max_overlap: 0.0,
+        };
+        let mut watch = Watch::new(frequency, self.cavity.walls())?;
+        let mut next_look = FIRST_LOOK;
+        // The first period opens the accounts.
+        for period in 0..=self.periods.most() {
+            for _ in 0..steps {
+                let done = damper.step_watched(&mut watch.observers);
+                done.map_err(|error| FieldError::Step {
+                    point,
+                    time: damper.time(),
+                    error,
+                })?;
+                let overlap = damper.largest_overlap();
+                measurement.max_overlap = measurement.max_overlap.max(overlap);
+            }
+            let cycle = watch.close();
+            if period > 0 {
+                measurement.cycles.push(cycle);
+            }
+            if each_period(period + 1).is_break() {
+                return Err(FieldError::Cancelled);
+            }
+            if let Periods::Until { half_width, .. } = self.periods {
+                if period >= next_look {
+                    next_look = (period as f64 * NEXT_LOOK) as u64;
+                    if measurement.settle() && measurement.is_within(half_width) {
+                        return Ok(measurement);
+                    }
+                }
+            }
+        }
+        match self.periods {
+            Periods::Fixed { discarded, .. } => measurement.settle_after(discarded as usize),
+            Periods::Until { .. } => measurement.settle(),
+        };
+        Ok(measurement)
+    }
+
+    /// The particles at the start.
+    fn start(&self, point: Point, axis: glam::DVec3) -> Result<Vec<Particle>, FieldError> {
+        let kinds = match &self.bed {
+            Bed::Placed(particles) => return Ok(particles.clone()),
+            Bed::Filled(kinds) => kinds,
+        };
+        let mut filling = Filling::new(point.seed);
+        filling = if self.gravity.length_squared() > 0.0 {
+            filling.down(self.gravity)
+        } else {
+            filling.throughout()
+        };
+        for &(count, prototype) in kinds {
+            filling = filling.with(count, prototype);
+        }
+        let filled = filling.fill(&self.cavity);
+        let mut bed = filled.map_err(|error| FieldError::Filling { point, error })?;
+        for particle in &mut bed {
+            particle.velocity += axis * (point.angular_frequency() * point.amplitude);
+        }
+        Ok(bed)
+    }
+}
+
+/// What watches a point.
+struct Watch {
+    observers: (Harmonics, (EnergyLedger, BedRegime)),
+    walls: u32,
+}
+
+impl Watch {
+    fn new(frequency: f64, walls: u32) -> Result<Self, ValueError> {
+        let others = (EnergyLedger::new(), BedRegime::new());
+        Ok(Self {
+            observers: (Harmonics::new(frequency)?, others),
+            walls,
+        })
+    }
+
+    /// What the period was that ends here. The next one begins.
+    fn close(&mut self) -> Cycle {
+        let (harmonics, (ledger, bed)) = &mut self.observers;
+        let account = ledger.close();
+        let impacts = |wall| harmonics.walls().wall(0, wall).map_or(0, |own| own.impacts);
+        let cycle = Cycle {
+            power: harmonics.power(0).unwrap_or_default(),
+            contact_loss: account.losses.total(),
+            gain: account.change(),
+            impacts: (0..self.walls).map(impacts).collect(),
+            regime: Regime {
+                contacts: bed.contacts(),
+                flight: bed.flight(),
+                off_walls: bed.off_walls(),
+                temperature: bed.temperature(),
+            },
+        };
+        harmonics.reset();
+        *bed = BedRegime::new();
+        cycle
+    }
+}
+
+impl Measurement {
+    /// A number of each kept cycle.
+    fn series(&self, value: impl Fn(&Cycle) -> f64) -> Vec<f64> {
+        self.kept().iter().map(value).collect()
+    }
+
+    /// Both of what a host feels: energies per cycle and apparent masses.
+    fn both(&self) -> [Vec<f64>; 2] {
+        [
+            self.series(|cycle| cycle.power.energy_per_cycle()),
+            self.series(|cycle| cycle.power.apparent_mass()),
+        ]
+    }
+
+    /// Finds the end of the start, and returns whether there is one.
+    fn settle(&mut self) -> bool {
+        self.discarded = 0;
+        let states = self.both().map(|series| steady_state(&series, CONFIDENCE));
+        self.settled = states
+            .iter()
+            .all(|state| state.is_ok_and(|own| own.settled));
+        let cuts = states.iter().flatten().map(|state| state.discarded);
+        self.discarded = cuts.max().unwrap_or(0);
+        self.settled
+    }
+
+    /// Takes the first `discarded` cycles for the start, and returns whether it is over after them.
+    fn settle_after(&mut self, discarded: usize) -> bool {
+        self.discarded = discarded;
+        let states = self.both().map(|series| steady_state(&series, CONFIDENCE));
+        self.settled = states
+            .iter()
+            .all(|state| state.is_ok_and(|own| own.settled));
+        self.settled
+    }
+
+    /// Whether the intervals are narrow enough.
+    fn is_within(&self, part: f64) -> bool {
+        let [energies, masses] = self.both();
+        let mean = energies.iter().sum::<f64>() / energies.len() as f64;
+        let speed = self.point.angular_frequency() * self.point.amplitude;
+        let small = SMALL_LOSS * 0.5 * self.bed_mass * speed * speed;
+        let narrow = |series: &[f64], scale: f64| {
+            half_width(series).is_some_and(|width| width <= part * scale)
+        };
+        narrow(&energies, mean.abs().max(small)) && narrow(&masses, self.bed_mass)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_divide_the_period_and_are_no_longer_than_asked() {
+        assert_eq!(steps_per_period(5.0, 1e-4).unwrap(), 2000);
+        assert_eq!(steps_per_period(6.0, 1e-4).unwrap(), 1667);
+        assert_eq!(steps_per_period(1.0, 10.0).unwrap(), 40);
+        assert!(steps_per_period(1.0, 1e-15).is_err());
+    }
+}
