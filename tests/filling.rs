@@ -313,9 +313,9 @@ fn a_bed_without_gravity_is_spread_throughout_the_room() {
             let room = size.x * size.y * if planar { 1.0 } else { size.z } * 0.52;
             let own = |r: f64| {
                 if planar {
-                    3.14 * r * r
+                    std::f64::consts::PI * r * r
                 } else {
-                    4.19 * r * r * r
+                    4.0 / 3.0 * std::f64::consts::PI * r * r * r
                 }
             };
             let count = (share * room / own(2e-3)) as usize;

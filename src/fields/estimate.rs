@@ -46,7 +46,8 @@ pub(super) fn estimate(runs: &[&Measurement], value: &dyn Fn(&Cycle) -> f64) -> 
     for run in runs {
         let series: Vec<f64> = run.kept().iter().map(value).collect();
         means.push(series.iter().sum::<f64>() / series.len() as f64);
-        squares = squares.and_then(|sum: f64| Some(sum + half_width(&series)?.powi(2)));
+        let width = half_width(&series);
+        squares = squares.and_then(|sum: f64| width.map(|width| sum + width * width));
     }
     let mean = means.iter().sum::<f64>() / count;
     let deviations = means.iter().map(|own| (own - mean).abs());

@@ -97,12 +97,12 @@ where
             if each_period(period + 1).is_break() {
                 return Err(FieldError::Cancelled);
             }
-            if let Periods::Until { half_width, .. } = self.periods {
-                if period >= next_look {
-                    next_look = (period as f64 * NEXT_LOOK) as u64;
-                    if measurement.settle() && measurement.is_within(half_width) {
-                        return Ok(measurement);
-                    }
+            if let Periods::Until { half_width, .. } = self.periods
+                && period >= next_look
+            {
+                next_look = (period as f64 * NEXT_LOOK) as u64;
+                if measurement.settle() && measurement.is_within(half_width) {
+                    return Ok(measurement);
                 }
             }
         }
