@@ -1,6 +1,8 @@
 //! The damper: a bed of particles in a container on a mount, stepped in time.
 
 use crate::contact::WallLoad;
+use std::fmt;
+
 use glam::DVec3;
 
 use crate::cavity::{Cavity, clearance};
@@ -17,6 +19,7 @@ use state::Clock;
 
 mod builder;
 mod drive;
+mod driven_damper;
 mod energies;
 mod engine;
 mod forces;
@@ -28,6 +31,7 @@ pub(crate) mod state;
 mod step;
 
 pub use builder::{BuildError, Builder, StepBound};
+pub use driven_damper::{AnySnapshot, DrivenDamper};
 pub use snapshot::{Recorded, Recording, ReplayError, RestoreError, Snapshot};
 
 /// What the particles do to a container.
@@ -44,15 +48,35 @@ pub struct Reaction {
 
 /// A particle damper: particles in the cavity of a container that moves with its mount.
 ///
-/// `C` is the cavity, `L` the contact law, `M` the mount, `D` the detector, `I` the integrator.
-/// [`Damper::builder`] makes one; the crate page shows the loop.
-#[derive(Debug, Clone)]
-pub struct Damper<C, L: ContactLaw, M, D, I = VelocityVerlet> {
+/// `C` is the cavity, `L` the contact law, `M` the mount, `D` the detector, `I` the integrator. Those that are
+/// not named are the ones that [`Damper::builder`] starts with, so that a program can write down the type of
+/// what it holds:
+/// ```
+/// use particle_damper::{Cuboid, Damper, RestitutionImpulse};
+///
+/// struct MySimulation {
+///     damper: Damper<Cuboid, RestitutionImpulse>,
+/// }
+/// ```
+/// The crate page shows the loop.
+#[derive(Clone)]
+pub struct Damper<C, L: ContactLaw, M = Driven, D = Skin<LinkedCells>, I = VelocityVerlet> {
     engine: Engine<C, L, M, D>,
     integrator: I,
     clock: Clock,
     time_step: f64,
     setup: Setup,
+}
+
+impl<C, L: ContactLaw, M, D, I> fmt::Debug for Damper<C, L, M, D, I> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Damper")
+            .field("time", &self.clock.time())
+            .field("time_step", &self.time_step)
+            .field("particles", &self.engine.state.particles.len())
+            .field("cavities", &self.engine.state.model.compartments.len())
+            .finish_non_exhaustive()
+    }
 }
 
 impl<C, L, M, D, I> Damper<C, L, M, D, I>

@@ -100,20 +100,28 @@ impl<A: Excitation, B: Excitation> Excitation for (A, B) {
     }
 }
 
-/// An excitation chosen at run time.
-impl Excitation for Box<dyn Excitation + Send + Sync> {
-    fn force(&self, time: f64, damping: f64, stiffness: f64) -> f64 {
-        (**self).force(time, damping, stiffness)
-    }
+macro_rules! forward_excitation {
+    ($boxed:ty) => {
+        /// An excitation chosen at run time.
+        impl Excitation for $boxed {
+            fn force(&self, time: f64, damping: f64, stiffness: f64) -> f64 {
+                (**self).force(time, damping, stiffness)
+            }
 
-    fn shortest_feature(&self) -> f64 {
-        (**self).shortest_feature()
-    }
+            fn shortest_feature(&self) -> f64 {
+                (**self).shortest_feature()
+            }
 
-    fn jump(&self) -> Option<Jump> {
-        (**self).jump()
-    }
+            fn jump(&self) -> Option<Jump> {
+                (**self).jump()
+            }
+        }
+    };
 }
+
+forward_excitation!(Box<dyn Excitation>);
+forward_excitation!(Box<dyn Excitation + Send>);
+forward_excitation!(Box<dyn Excitation + Send + Sync>);
 
 macro_rules! force_in_newtons {
     ($($signal:ty),+) => {$(

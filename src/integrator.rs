@@ -72,7 +72,8 @@ pub trait System {
 /// Takes a [`System`] from one step to the next.
 ///
 /// # Using
-/// [`VelocityVerlet`] is the default, one evaluation a step; [`RungeKutta4`] is the paper's, four.
+/// [`VelocityVerlet`] is the default, one evaluation a step; [`RungeKutta4`] is the paper's, four. One that
+/// is chosen at run time is a `Box<dyn Integrator>`.
 ///
 /// # Implementing
 /// 1. On entry the accelerations are those of the current state.
@@ -99,7 +100,7 @@ pub trait System {
 /// }
 ///
 /// impl Integrator for SymplecticEuler {
-///     fn step<S: System>(&mut self, system: &mut S, time_step: f64) -> Result<(), StepError> {
+///     fn step(&mut self, system: &mut dyn System, time_step: f64) -> Result<(), StepError> {
 ///         for columns in system.motions().all() {
 ///             push(columns, time_step);
 ///         }
@@ -112,11 +113,18 @@ pub trait Integrator {
     ///
     /// # Errors
     /// Whatever an evaluation reports.
-    fn step<S: System>(&mut self, system: &mut S, time_step: f64) -> Result<(), StepError>;
+    fn step(&mut self, system: &mut dyn System, time_step: f64) -> Result<(), StepError>;
 }
 
-impl<I: Integrator + ?Sized> Integrator for &mut I {
-    fn step<S: System>(&mut self, system: &mut S, time_step: f64) -> Result<(), StepError> {
-        (**self).step(system, time_step)
-    }
+macro_rules! forward_integrator {
+    ($reference:ty) => {
+        impl<I: Integrator + ?Sized> Integrator for $reference {
+            fn step(&mut self, system: &mut dyn System, time_step: f64) -> Result<(), StepError> {
+                (**self).step(system, time_step)
+            }
+        }
+    };
 }
+
+forward_integrator!(&mut I);
+forward_integrator!(Box<I>);

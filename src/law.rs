@@ -12,6 +12,7 @@ use crate::material::MaterialId;
 #[cfg(test)]
 mod collision;
 mod damping;
+mod either;
 mod force_law;
 mod friction;
 mod hertz;
@@ -26,6 +27,7 @@ mod solver_parameters;
 mod turn;
 
 pub use damping::{Damping, Ending};
+pub use either::EitherLaw;
 pub use force_law::ForceLaw;
 pub use friction::Friction;
 pub use hertz::ElasticImpact;
@@ -67,7 +69,7 @@ pub enum LawError {
 ///
 /// # Using
 /// [`HertzTsuji`] is the strict law of the paper, [`RestitutionImpulse`] the one that allows a coarser
-/// step. Pass one to [`Damper::builder`](crate::Damper::builder).
+/// step. Pass one to [`Damper::builder`](crate::Damper::builder). An [`EitherLaw`] is chosen at run time.
 ///
 /// # Implementing
 /// 1. Choose the [kind](Self::Kind): [`Forces`], and implement [`ForceLaw`] as well; or [`Impulses`],
@@ -82,7 +84,7 @@ pub trait ContactLaw: Sync {
     type Kind: LawKind<Self>;
 
     /// What the law prepares for two bodies that can meet.
-    type Coefficients: Copy + std::fmt::Debug + Send + Sync;
+    type Coefficients: Copy + Send + Sync;
 
     /// Prepares for two bodies.
     ///

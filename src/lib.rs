@@ -134,8 +134,8 @@ pub use contact::{
     Bodies, Body, Contact, ContactForce, HeldForce, Onset, Partner, Stored, WallLoad,
 };
 pub use damper::{
-    BuildError, Builder, Damper, Reaction, Recorded, Recording, ReplayError, RestoreError,
-    Snapshot, StepBound,
+    AnySnapshot, BuildError, Builder, Damper, DrivenDamper, Reaction, Recorded, Recording,
+    ReplayError, RestoreError, Snapshot, StepBound,
 };
 pub use detector::{
     AllPairs, Bed, CellGrid, Counted, Detector, DetectorError, LinkedCells, Neighbourhood, Pairs,
@@ -146,8 +146,8 @@ pub use fields::EffectiveFields;
 pub use filling::{Filling, FillingError};
 pub use integrator::{Integrator, RungeKutta4, VelocityVerlet};
 pub use law::{
-    ContactLaw, ContactMemory, Damping, ElasticImpact, Ending, ForceLaw, Forces, Friction,
-    HertzMindlin, HertzTsuji, ImpulseLaw, Impulses, LawError, LawKind, NormalHistory,
+    ContactLaw, ContactMemory, Damping, EitherLaw, ElasticImpact, Ending, ForceLaw, Forces,
+    Friction, HertzMindlin, HertzTsuji, ImpulseLaw, Impulses, LawError, LawKind, NormalHistory,
     RestitutionImpulse, SolverParameters, SweepOrder, TangentialSpring,
 };
 pub use material::{Interaction, Material, MaterialId, Materials};

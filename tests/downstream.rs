@@ -13,6 +13,8 @@ use particle_damper::{
 
 #[path = "downstream/parts.rs"]
 mod parts;
+#[path = "downstream/run_time.rs"]
+mod run_time;
 
 use parts::{CundallStrack, HalfPipe, Leapfrog, SpringDashpot, SweepAndPrune, TwoMasses, Watch};
 

@@ -92,7 +92,7 @@ impl IntegratorName {
 }
 
 impl Integrator for AnyIntegrator {
-    fn step<S: System>(&mut self, system: &mut S, time_step: f64) -> Result<(), StepError> {
+    fn step(&mut self, system: &mut dyn System, time_step: f64) -> Result<(), StepError> {
         match self {
             Self::Verlet(inner) => inner.step(system, time_step),
             Self::Rk4(inner) => inner.as_mut().step(system, time_step),

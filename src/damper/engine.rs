@@ -7,7 +7,7 @@ use super::state::State;
 use crate::law::ContactLaw;
 
 /// The state, and the stages that change it.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub(crate) struct Engine<C, L: ContactLaw, M, D> {
     pub(crate) state: State<C, L, M>,
     pub(crate) neighbours: Neighbours<L, D>,

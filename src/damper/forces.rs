@@ -21,7 +21,7 @@ mod sums;
 use evaluate::BlockForces;
 
 /// What forces are evaluated with: scratch for each block.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub(crate) struct Forces<L: ContactLaw> {
     blocks: Vec<BlockForces<L>>,
 }

@@ -23,7 +23,7 @@ use block::{history_buffers, make_blocks, reserved_by, room_for};
 pub(crate) use list::{ContactRecord, NeighbourList, make_room};
 
 /// The broad and the narrow phase, and what they have found.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub(crate) struct Neighbours<L: ContactLaw, D> {
     /// One for each cavity.
     pub(crate) detectors: Vec<D>,

@@ -1,5 +1,7 @@
 //! Snapshots: the whole state of a damper, apart from how it is set up.
 
+use std::fmt;
+
 use glam::DVec3;
 
 use super::Damper;
@@ -50,7 +52,7 @@ const VERSION: u32 = 1;
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Snapshot<Memory> {
     version: u32,
@@ -70,6 +72,17 @@ pub struct Snapshot<Memory> {
     wall_loads: Vec<WallLoad>,
     loads: Vec<DVec3>,
     memory: [Vec<ContactRecord<Memory>>; 2],
+}
+
+impl<Memory> fmt::Debug for Snapshot<Memory> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Snapshot")
+            .field("time", &self.time())
+            .field("particles", &self.number.len())
+            .field("contacts", &self.memory.each_ref().map(Vec::len))
+            .field("digest", &self.digest)
+            .finish_non_exhaustive()
+    }
 }
 
 /// Why a snapshot cannot be restored into a damper.

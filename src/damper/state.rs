@@ -41,7 +41,7 @@ pub(crate) use vectors::{Rows, Vectors};
 pub(crate) use view::{StateView, StepTime};
 
 /// Everything that a step changes, and what it follows.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub(crate) struct State<C, L: ContactLaw, M> {
     pub(crate) model: Model<C, L>,
     pub(crate) mount: M,

@@ -83,7 +83,7 @@ impl Tableau {
 }
 
 impl Integrator for RungeKutta4 {
-    fn step<S: System>(&mut self, system: &mut S, time_step: f64) -> Result<(), StepError> {
+    fn step(&mut self, system: &mut dyn System, time_step: f64) -> Result<(), StepError> {
         let groups = &mut self.groups;
         for (tableau, columns) in groups.iter_mut().zip(system.motions().all()) {
             tableau.begin(&columns);

@@ -55,7 +55,7 @@ fn correct(columns: Columns<'_>, dt: f64) {
 }
 
 impl Integrator for VelocityVerlet {
-    fn step<S: System>(&mut self, system: &mut S, time_step: f64) -> Result<(), StepError> {
+    fn step(&mut self, system: &mut dyn System, time_step: f64) -> Result<(), StepError> {
         for columns in system.motions().all() {
             predict(columns, time_step);
         }

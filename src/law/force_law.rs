@@ -60,7 +60,7 @@ use crate::contact::{Contact, ContactForce, Onset, Stored};
 /// ```
 pub trait ForceLaw: ContactLaw<Kind = Forces> {
     /// What a contact remembers from step to step; `()` for nothing.
-    type Memory: Copy + Default + std::fmt::Debug + PartialEq + Send + Sync;
+    type Memory: Copy + Default + PartialEq + Send + Sync;
 
     /// The force on the first body of `contact`, in N and N m.
     fn force(

@@ -1,7 +1,5 @@
 //! The two kinds of contact law, as types.
 
-use std::fmt::Debug;
-
 use super::{ContactLaw, ForceLaw, ImpulseLaw};
 use crate::contact::HeldForce;
 
@@ -23,7 +21,7 @@ mod sealed {
 pub trait LawKind<L: ?Sized>: sealed::Sealed {
     /// What a contact remembers from step to step: what a force law [says](ForceLaw::Memory), or the
     /// [force](HeldForce) that the contact bore over the step, from which the next one starts.
-    type Memory: Copy + Default + Debug + PartialEq + Send + Sync;
+    type Memory: Copy + Default + PartialEq + Send + Sync;
 
     /// Whether contact forces hold over a step.
     const HELD: bool;

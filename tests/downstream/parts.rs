@@ -127,7 +127,7 @@ fn drift(columns: &mut Columns<'_>, dt: f64) {
 }
 
 impl Integrator for Leapfrog {
-    fn step<S: System>(&mut self, system: &mut S, time_step: f64) -> Result<(), StepError> {
+    fn step(&mut self, system: &mut dyn System, time_step: f64) -> Result<(), StepError> {
         let half = 0.5 * time_step;
         for mut columns in system.motions().all() {
             kick(&mut columns, half);

@@ -91,7 +91,7 @@ impl Lanes {
 }
 
 /// Up to [`BATCH_SIZE`] contacts, all of pairs or all with walls, and what the law answers.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub(super) struct Batch<L: ContactLaw> {
     count: usize,
     /// From the second body to the first: until their kinematics are [worked out](Self::work_out_kinematics), of two

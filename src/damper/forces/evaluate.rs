@@ -26,7 +26,7 @@ pub(super) struct HaloForce {
 }
 
 /// What the forces of a block are evaluated with.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub(super) struct BlockForces<L: ContactLaw> {
     pub(super) halo_forces: Vec<HaloForce>,
     /// On each wall, all cavities in turn.

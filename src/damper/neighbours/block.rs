@@ -76,7 +76,7 @@ pub(crate) fn reserved_by<M>(memories: &[Vec<ContactRecord<M>>; 2]) -> usize {
 }
 
 /// A run of particles with its candidates, and what its last evaluation found.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub(crate) struct Block<L: ContactLaw> {
     pub(crate) indices: Range<usize>,
     pub(crate) pairs: NeighbourList<L>,

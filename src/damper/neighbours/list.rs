@@ -51,7 +51,7 @@ pub(crate) const fn pair(first: u32, second: u32) -> (u32, u32) {
 
 /// Candidates in ascending order of their two bodies. This is the order in which contacts are
 /// evaluated, whoever proposed them.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub(crate) struct NeighbourList<L: ContactLaw> {
     list: Vec<Candidate>,
     /// Index of the entry of each, or [`NONE`]; empty if contacts remember nothing, and if each has the

@@ -1,13 +1,14 @@
 //! Recording a host's session, and playing it again.
 
 use std::collections::BTreeSet;
+use std::fmt;
 
 use super::digest::Digest;
 use super::{RestoreError, Snapshot};
 use crate::cavity::Cavity;
 use crate::damper::{Damper, Reaction};
-use crate::detector::Detector;
-use crate::integrator::Integrator;
+use crate::detector::{Detector, LinkedCells, Skin};
+use crate::integrator::{Integrator, VelocityVerlet};
 use crate::law::{ContactLaw, ContactMemory, LawKind};
 use crate::mount::{Driven, Motion};
 use crate::step_error::StepError;
@@ -34,15 +35,24 @@ use crate::step_error::StepError;
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Recording<Memory> {
     start: Snapshot<Memory>,
     events: Vec<Event<Memory>>,
 }
 
+impl<Memory> fmt::Debug for Recording<Memory> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Recording")
+            .field("start", &self.start)
+            .field("drives", &self.drives())
+            .finish_non_exhaustive()
+    }
+}
+
 /// What happened.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 enum Event<Memory> {
     /// The container was moved; with the digest of the answer, none if it was an error.
@@ -98,14 +108,23 @@ pub enum ReplayError {
 }
 
 /// A driven damper that records what its host does.
-#[derive(Debug, Clone)]
-pub struct Recorded<C, L: ContactLaw, D, I> {
+#[derive(Clone)]
+pub struct Recorded<C, L: ContactLaw, D = Skin<LinkedCells>, I = VelocityVerlet> {
     damper: Damper<C, L, Driven, D, I>,
     recording: Recording<ContactMemory<L>>,
     /// Digests of the snapshots taken.
     marks: Vec<Digest>,
     every: u32,
     since: u32,
+}
+
+impl<C, L: ContactLaw, D, I> fmt::Debug for Recorded<C, L, D, I> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Recorded")
+            .field("damper", &self.damper)
+            .field("drives", &self.recording.drives())
+            .finish_non_exhaustive()
+    }
 }
 
 impl<C, L, D, I> Recorded<C, L, D, I>
@@ -248,7 +267,9 @@ impl<Memory: Clone> Recording<Memory> {
         }
         Ok(failure)
     }
+}
 
+impl<Memory> Recording<Memory> {
     /// How often the container was moved.
     #[must_use]
     pub fn drives(&self) -> usize {
