@@ -2,15 +2,19 @@
 
 use glam::DVec3;
 
+mod composite;
 mod cuboid;
 mod cylinder;
 mod disc;
+mod part;
 mod slot;
 mod sphere;
 
+pub use composite::{Composite, CompositeError};
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use disc::Disc;
+pub use part::Part;
 pub use slot::Slot;
 pub use sphere::Sphere;
 
@@ -88,8 +92,27 @@ pub trait Cavity: Sync {
     }
 
     /// A name for a wall, for tables and messages.
-    fn wall_name(&self, _number: u32) -> &'static str {
+    fn wall_name(&self, _number: u32) -> &str {
         "wall"
+    }
+
+    /// Whether a wall is nearer to `point` than `reach` (m). Cavities of many walls may have a quicker answer
+    /// than the distance.
+    #[inline]
+    fn reaches(&self, number: u32, point: DVec3, reach: f64) -> bool {
+        self.wall(number, point).distance < reach
+    }
+
+    /// The least thickness of an obstacle in m: what is so fast that it could pass through one within a step
+    /// is an error. Infinite where nothing that could be passed stands in the room.
+    fn thickness(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    /// The least radius to which a wall's hollow edges are rounded, in m: a larger particle would touch that
+    /// wall at two points, and is refused. Infinite where there are none.
+    fn rounding(&self) -> f64 {
+        f64::INFINITY
     }
 }
 
@@ -113,8 +136,21 @@ macro_rules! forward_cavity {
                 (**self).is_planar()
             }
 
-            fn wall_name(&self, number: u32) -> &'static str {
+            fn wall_name(&self, number: u32) -> &str {
                 (**self).wall_name(number)
+            }
+
+            #[inline]
+            fn reaches(&self, number: u32, point: DVec3, reach: f64) -> bool {
+                (**self).reaches(number, point, reach)
+            }
+
+            fn thickness(&self) -> f64 {
+                (**self).thickness()
+            }
+
+            fn rounding(&self) -> f64 {
+                (**self).rounding()
             }
         }
     };

@@ -156,11 +156,12 @@ pub enum StepError {
         /// Its rate.
         rate: f64,
     },
-    /// A particle moves by more than its radius relative to its container in a step: it could pass others,
-    /// or a wall, unseen. A shorter step follows it.
+    /// A particle moves so far relative to its container in a step that it could pass others, a wall or an
+    /// [obstacle](crate::Cavity::thickness) unseen: under an impulse law by more than its radius. A shorter
+    /// step follows it.
     #[error(
-        "particle {particle} moves at {speed} m/s relative to its container, by more than its radius in a \
-         step of {time_step} s, which follows {limit} m/s at most: {cause}"
+        "particle {particle} moves at {speed} m/s relative to its container, too far in a step of \
+         {time_step} s, which follows {limit} m/s at most: {cause}"
     )]
     TooFast {
         /// Number of the particle.

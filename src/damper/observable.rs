@@ -57,7 +57,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Observable for Engine<C, L
         (wall < compartment.cavity.walls()).then(|| self.state.wall_loads[load])
     }
 
-    fn wall_name(&self, cavity: usize, wall: u32) -> Option<&'static str> {
+    fn wall_name(&self, cavity: usize, wall: u32) -> Option<&str> {
         let compartment = self.state.model.compartments.get(cavity)?;
         (wall < compartment.cavity.walls()).then(|| compartment.cavity.wall_name(wall))
     }

@@ -27,6 +27,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         observer: &mut O,
     ) -> Result<(), StepError> {
         self.state.begin_step(dt);
+        self.state.check_passages()?;
         self.neighbours.sort_in_time(&mut self.state)?;
         self.solve_impulses(observer)?;
         // Asks to evaluate forces, once or more.

@@ -16,7 +16,7 @@ pub(crate) trait Observable {
     fn impulse(&self, cavity: usize) -> Option<DVec3>;
     fn walls(&self, cavity: usize) -> u32;
     fn wall_load(&self, cavity: usize, wall: u32) -> Option<WallLoad>;
-    fn wall_name(&self, cavity: usize, wall: u32) -> Option<&'static str>;
+    fn wall_name(&self, cavity: usize, wall: u32) -> Option<&str>;
     fn coordinates(&self) -> &[f64];
     fn rates(&self) -> &[f64];
     fn mount_energy(&self) -> MountEnergy;
@@ -120,7 +120,7 @@ impl<'a> StepReport<'a> {
 
     /// What a cavity calls a wall.
     #[must_use]
-    pub fn wall_name(&self, cavity: usize, wall: u32) -> Option<&'static str> {
+    pub fn wall_name(&self, cavity: usize, wall: u32) -> Option<&'a str> {
         self.view.wall_name(cavity, wall)
     }
 

@@ -203,6 +203,14 @@ where
                     extent,
                 });
             }
+            let rounding = cavity.rounding();
+            if particle.radius > rounding {
+                return Err(BuildError::TooLargeForEdge {
+                    particle: number,
+                    radius: particle.radius,
+                    rounding,
+                });
+            }
         }
         Ok(())
     }

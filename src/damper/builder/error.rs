@@ -121,6 +121,18 @@ pub enum BuildError {
         /// The cavity's least extent in m.
         extent: f64,
     },
+    /// A particle is larger than a hollow edge of its cavity is round: it would touch one wall at two points.
+    #[error(
+        "particle {particle} of radius {radius} m does not fit into edges rounded by {rounding} m"
+    )]
+    TooLargeForEdge {
+        /// Number of the particle.
+        particle: usize,
+        /// Its radius in m.
+        radius: f64,
+        /// The [rounding](crate::Cavity::rounding) of the cavity in m.
+        rounding: f64,
+    },
     /// A particle, a velocity, gravity or the mount leaves the plane of a planar cavity.
     #[error("{quantity} {value} leaves the plane z = 0 of a planar cavity")]
     OutOfPlane {

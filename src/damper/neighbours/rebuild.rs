@@ -96,9 +96,9 @@ impl<L: ContactLaw> Block<L> {
             let margin = 0.5 * compartment.margin;
             for index in compartment.indices_in(&self.indices) {
                 let touching = view.radius[index];
+                let near = touching + listed_distance + margin;
                 for wall in 0..compartment.cavity.walls() {
-                    let point = compartment.cavity.wall(wall, local[index]);
-                    if point.distance < touching + listed_distance + margin {
+                    if compartment.cavity.reaches(wall, local[index], near) {
                         self.walls
                             .push(index as u32, compartment.first_wall + wall, touching);
                     }

@@ -176,4 +176,32 @@ impl<C: Cavity, L: ContactLaw, M: Mount> State<C, L, M> {
         }
         Ok(())
     }
+
+    /// Refuses particles that could pass through an obstacle of their cavity in the step and not be seen: a
+    /// step that ends in it, or as deep as an overlap may not be on either side, is an error.
+    pub(crate) fn check_passages(&self) -> Result<(), StepError> {
+        let time_step = self.time_step;
+        for compartment in &self.model.compartments {
+            let thickness = compartment.cavity.thickness();
+            if !(self.contained && thickness < f64::INFINITY) {
+                continue;
+            }
+            for index in compartment.indices.clone() {
+                let velocity = self.particles.velocity.get(index) - compartment.motion.velocity;
+                let off = (self.particles.radius[index] - self.overlap_limit).max(0.0);
+                let limit = (thickness + 2.0 * off) / time_step;
+                let speed = velocity.length();
+                if speed > limit {
+                    return Err(StepError::TooFast {
+                        particle: self.particles.id[index] as usize,
+                        speed,
+                        time_step,
+                        limit,
+                        cause: self.cause(),
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
 }
