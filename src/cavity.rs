@@ -43,14 +43,18 @@ impl WallPoint {
 ///
 /// # Using
 /// [`Slot`] and [`Disc`] hold motion to a plane; [`Cuboid`], [`Cylinder`] and [`Sphere`] are rooms in
-/// space. A damper asks the cavity for
-/// everything it needs; user code only builds it.
+/// space. A [`Composite`] is any of both, put together from [`Part`]s: bodies and obstacles at any angle. A
+/// damper asks the cavity for everything it needs; user code only builds it.
+///
+/// Contact laws take walls for flat: a contact with a rod as thin as the grain is in truth softer, by up to a
+/// third of its stiffness.
 ///
 /// # Implementing
 /// 1. Walls are numbered from 0 to [`walls`](Self::walls) (excluded), and each is a smooth surface: a
 ///    sphere touches a wall at one point at the most. A corner is two walls.
 /// 2. [`wall`](Self::wall) gives a signed distance that is right to rounding within one particle
-///    radius of the wall, on both sides. Farther inside it may be any larger number.
+///    radius of the wall, on both sides; in an obstacle that is thinner, up to its middle. Farther inside it
+///    may be any larger number.
 /// 3. The distance never changes by more than the point moves (it is 1-Lipschitz).
 /// 4. [`bounds`](Self::bounds) encloses every point with all distances positive.
 /// 5. A planar cavity has all normals in the plane z = 0.
@@ -92,6 +96,7 @@ pub trait Cavity: Sync {
     }
 
     /// A name for a wall, for tables and messages.
+    #[allow(clippy::unnecessary_literal_bound)]
     fn wall_name(&self, _number: u32) -> &str {
         "wall"
     }

@@ -54,7 +54,7 @@
 //! | contact detector | [`Detector`] | [`AllPairs`], [`CellGrid`] (the paper's cellular automaton), [`LinkedCells`]; [`Skin`] makes any of them last |
 //! | integrator | [`Integrator`] | [`VelocityVerlet`], [`RungeKutta4`] (the paper's) |
 //! | mount | [`Mount`] | [`SingleDof`] (the paper's oscillator), [`Driven`] (by a host), [`Prescribed`] |
-//! | cavity | [`Cavity`] | [`Slot`] (the paper's) and [`Disc`](cavity::Disc) in the plane, [`Cuboid`], [`Cylinder`](cavity::Cylinder), [`Sphere`](cavity::Sphere) |
+//! | cavity | [`Cavity`] | [`Slot`] (the paper's) and [`Disc`](cavity::Disc) in the plane, [`Cuboid`], [`Cylinder`](cavity::Cylinder), [`Sphere`](cavity::Sphere); [`Composite`](cavity::Composite)s of [`Part`](cavity::Part)s at any angle, with obstacles |
 //!
 //! Around them: [`Materials`] and their pairs, [`Filling`], [`excitation`]s of an oscillator,
 //! [`Observer`]s such as the [`EnergyLedger`], [`Snapshot`]s, [`response`] curves, and [`statistics`] that

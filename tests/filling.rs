@@ -2,7 +2,9 @@
 //! room.
 
 use glam::{DVec3, dvec3};
-use particle_damper::cavity::{Cavity, Cuboid, Cylinder, Disc, Slot, Sphere, WallPoint};
+use particle_damper::cavity::{
+    Cavity, Composite, Cuboid, Cylinder, Disc, Part, Slot, Sphere, WallPoint,
+};
 use particle_damper::{
     BuildError, Damper, Filling, FillingError, HertzTsuji, Material, Materials, Particle,
     ValueError,
@@ -58,8 +60,81 @@ fn cavities(a: f64, b: f64, c: f64) -> [Box<dyn Cavity>; 5] {
     ]
 }
 
+/// Rooms of about 40 across, composed.
+fn composites() -> [(&'static str, Composite); 7] {
+    let plane = |axis: DVec3, at: f64| Part::plane().along(axis).at(axis * at);
+    let edges =
+        [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| [plane(axis, -20.0), plane(-axis, -20.0)]);
+    let cube = || edges.concat();
+    let tilt = glam::DQuat::from_rotation_x(0.4) * glam::DQuat::from_rotation_z(0.3);
+    let turned = |part: Part, at: DVec3| part.turned(tilt).at(tilt * at);
+    let tilted = [DVec3::X, DVec3::Y, DVec3::Z]
+        .map(|axis| [axis, -axis].map(|axis| turned(Part::plane().along(axis), axis * -20.0)));
+    let annulus = [
+        Part::cylinder(20.0).inside().along(DVec3::X),
+        Part::cylinder(8.0).along(DVec3::X),
+        plane(DVec3::X, -20.0),
+        plane(DVec3::NEG_X, -20.0),
+    ];
+    let hopper = [
+        Part::cylinder(20.0).inside(),
+        plane(DVec3::Y, -20.0),
+        plane(DVec3::NEG_Y, -20.0),
+        Part::funnel([6.0, 21.0], 15.0, 1.0).at(DVec3::NEG_Y * 8.0),
+    ];
+    let leaf = || Part::block(dvec3(1.0, 17.0, 50.0), 0.4);
+    let slit = [DVec3::Y, DVec3::NEG_Y].map(|side| leaf().at(side * 13.0));
+    let baffles = (0..4).map(|n| {
+        let axis = glam::DMat3::from_rotation_z(f64::from(n) * 1.57) * DVec3::X;
+        Part::rod([axis * 13.0, axis * 20.0], 1.0)
+    });
+    let drum = Part::cylinder(20.0).along(DVec3::Z).inside();
+    let pegs = (0..36).map(|n| {
+        let place = dvec3(f64::from(n % 6) - 2.5, f64::from(n / 6) - 2.5, 0.0);
+        Part::sphere(1.0).at(place * 7.0)
+    });
+    [
+        ("annulus", Composite::new(annulus).unwrap()),
+        ("hopper", Composite::new(hopper).unwrap()),
+        (
+            "rounded box",
+            Composite::new([Part::block(DVec3::splat(40.0), 5.0).inside()]).unwrap(),
+        ),
+        (
+            "slit",
+            Composite::new(cube().into_iter().chain(slit)).unwrap(),
+        ),
+        ("drum", Composite::planar(baffles.chain([drum])).unwrap()),
+        (
+            "pegs",
+            Composite::new(cube().into_iter().chain(pegs)).unwrap(),
+        ),
+        ("tilted box", Composite::new(tilted.concat()).unwrap()),
+    ]
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
+
+    /// As much as a room with obstacles may be expected to hold, wherever down is.
+    #[test]
+    fn composed_cavities_are_filled_by_their_distance(
+        counts in prop::array::uniform3(0..60_usize),
+        down in prop::array::uniform3(-1.0..1.0_f64),
+        number in 0..7_usize,
+        seed in any::<u64>(),
+    ) {
+        let (name, room) = &composites()[number];
+        let mut filling = Filling::new(seed).down(DVec3::from(down));
+        for (count, radius) in counts.into_iter().zip([0.6, 0.9, 1.5]) {
+            filling = filling.with(count / if room.is_planar() { 2 } else { 1 }, ball(radius));
+        }
+        let bed = filling.fill(room);
+        prop_assert!(bed.is_ok(), "{} {:?}", name, bed);
+        let bed = bed.unwrap();
+        assert_apart(room, &bed);
+        prop_assert_eq!(bits(&bed), bits(&filling.fill(room).unwrap()));
+    }
 
     #[test]
     fn a_bed_has_no_overlap_and_the_same_bits_again_or_is_refused(
@@ -267,6 +342,24 @@ fn what_cannot_be_filled_is_refused_with_its_reason() {
     ));
     let large = Filling::new(1).with(1, ball(0.04)).fill(&Slot::paper());
     assert!(matches!(large, Err(FillingError::NoRoom { placed: 0, .. })));
+}
+
+/// What fits into a room of the same shape and size, whoever tells its walls, fits in the same places.
+#[test]
+fn a_box_of_planes_is_filled_as_the_box_is() {
+    let size = dvec3(0.04, 0.06, 0.05);
+    let planes = DVec3::AXES.map(|axis| {
+        let far = Part::plane().along(-axis).at(axis * size.dot(axis));
+        [Part::plane().along(axis), far]
+    });
+    let composed = Composite::new(planes.concat()).unwrap();
+    let cuboid = Cuboid::new(size).unwrap();
+    assert_eq!(composed.bounds(), cuboid.bounds());
+    for count in [20, 300, 700] {
+        let filling = Filling::new(4).with(count, ball(2e-3));
+        let [one, other] = [filling.fill(&composed), filling.fill(&cuboid)];
+        assert_eq!(bits(&one.unwrap()), bits(&other.unwrap()));
+    }
 }
 
 /// A particle a nanometre larger than its cavity is wide was refused, while overlaps of some per cent pass.

@@ -148,9 +148,15 @@ impl Composite {
     }
 
     /// The parts, by the numbers of their walls.
-    #[must_use]
     pub fn parts(&self) -> &[Part] {
         &self.parts
+    }
+
+    /// The number of the first wall of a name.
+    #[must_use]
+    pub fn wall_named(&self, name: &str) -> Option<u32> {
+        let number = self.parts.iter().position(|part| part.name() == name);
+        number.map(|number| number as u32)
     }
 }
 
@@ -197,3 +203,6 @@ impl Cavity for Composite {
         self.rounding
     }
 }
+
+#[cfg(test)]
+mod tests;

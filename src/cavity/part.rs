@@ -128,8 +128,8 @@ impl Part {
     }
 
     /// An endless cone: its sides stand at `half_angle` (rad, between 0 and a quarter turn) to its axis, its
-    /// tip is rounded with the radius `tip` (m, may be zero). The apex, at the origin, is where the sides
-    /// would meet without.
+    /// tip is rounded with the radius `tip` (m, may be zero if it is hollow). The apex, at the origin, is where
+    /// the sides would meet without.
     pub const fn cone(half_angle: f64, tip: f64) -> Self {
         Self::new(Shape::Cone { half_angle, tip })
     }

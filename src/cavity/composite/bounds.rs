@@ -52,7 +52,7 @@ pub(super) fn bounds(parts: &[Placed], planar: bool) -> Result<[DVec3; 2], Compo
     for axis in 0..3 {
         if !planar || axis < 2 {
             let reach = most[axis].max(-least[axis]);
-            if !(reach < 0.99 * limit) {
+            if reach >= 0.99 * limit {
                 return Err(CompositeError::Unbounded {
                     axis: DVec3::AXES[axis],
                     limit,

@@ -82,10 +82,9 @@ impl Placed {
     fn half_space(&self, sign: f64) -> [DVec3; 2] {
         let [mut low, mut high] = EVERYWHERE;
         for axis in 0..3 {
-            let along = self.axes.y_axis[axis] * sign;
-            if along == 1.0 {
+            if self.axes.y_axis * sign == DVec3::AXES[axis] {
                 high[axis] = self.origin[axis];
-            } else if along == -1.0 {
+            } else if self.axes.y_axis * -sign == DVec3::AXES[axis] {
                 low[axis] = self.origin[axis];
             }
         }

@@ -127,7 +127,7 @@ fn solid(part: &Part, planar: bool) -> Result<Solid, Fault> {
             radius: positive("radius (m)", *radius)?,
         },
         Shape::Block { size, rounding } => block(*size, *rounding)?,
-        Shape::Cone { half_angle, tip } => Solid::Revolved(cone(*half_angle, *tip)?),
+        Shape::Cone { half_angle, tip } => Solid::Revolved(cone(*half_angle, *tip, part.hollow)?),
         Shape::Torus { ring, radius } => Solid::Revolved(torus(*ring, *radius)?),
         Shape::Disc { size, rounding } => Solid::Revolved(disc(*size, *rounding)?),
         Shape::Funnel {
@@ -155,10 +155,15 @@ fn block(size: DVec3, rounding: f64) -> Result<Solid, ValueError> {
     Ok(Solid::Block { core, layer })
 }
 
-fn cone(half_angle: f64, tip: f64) -> Result<Profile, ValueError> {
+fn cone(half_angle: f64, tip: f64, hollow: bool) -> Result<Profile, ValueError> {
     let quantity = "half angle (rad)";
     Bound::Below(FRAC_PI_2).check(quantity, positive(quantity, half_angle)?)?;
-    let layer = Bound::NonNegative.check("radius of the tip (m)", tip)?;
+    let sharp = if hollow {
+        Bound::NonNegative
+    } else {
+        Bound::Positive
+    };
+    let layer = sharp.check("radius of the tip (m)", tip)?;
     let sine = libm::sin(half_angle);
     Ok(Profile::Cone {
         sine,
