@@ -1,0 +1,221 @@
+//! The program as users run it: stopped midway, in parts, over ranks, with points that fail and files
+//! that do not belong. Whatever the way, the file of results is that of
+//! one process, byte for byte.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::OnceLock;
+use std::thread::sleep;
+use std::time::Duration;
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_mpi-sweep");
+
+/// One point that takes as long as all others together and more, and one that fails.
+const SWEEP: [&str; 8] = [
+    "--particles=20,5000",
+    "--seeds=1",
+    "--frequencies=0.25,5:7:19",
+    "--discarded=5",
+    "--averaged=10",
+    "--threads=2",
+    "--law=restitution",
+    "--force=0.25",
+];
+const POINTS: usize = 40;
+
+/// A new folder for the files of a test.
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn alone(results: &Path) -> Command {
+    let mut command = Command::new(PROGRAM);
+    command.args(SWEEP).arg("--results").arg(results);
+    command
+}
+
+#[cfg(feature = "mpi")]
+fn ranks(results: &Path) -> Command {
+    let mut command = Command::new("mpirun");
+    command.args(["--allow-run-as-root", "--oversubscribe", "-n", "3", PROGRAM]);
+    command.args(SWEEP).arg("--results").arg(results);
+    command
+}
+
+fn run(command: &mut Command) -> Output {
+    command.output().unwrap()
+}
+
+fn errors(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// What one process makes of the sweep.
+fn expected() -> &'static [u8] {
+    static BYTES: OnceLock<Vec<u8>> = OnceLock::new();
+    BYTES.get_or_init(one_process)
+}
+
+fn one_process() -> Vec<u8> {
+    let path = folder("one").join("results.jsonl");
+    let output = run(alone(&path).arg("--threads=1"));
+    // Twenty points fail, and the rest goes on.
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(
+        errors(&output).matches("failed: 5000 particles").count(),
+        20
+    );
+    let bytes = fs::read(&path).unwrap();
+    let text = String::from_utf8_lossy(&bytes);
+    assert_eq!(text.lines().count(), 1 + POINTS);
+    assert_eq!(text.matches("\"response\"").count(), 20);
+    bytes
+}
+
+/// Stops the program when a few points are on disk.
+fn stop_midway(mut command: Command, results: &Path) {
+    let quiet = command.stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = quiet.spawn().unwrap();
+    let finished = || {
+        let text = fs::read_to_string(results).unwrap_or_default();
+        text.matches("\"response\"").count()
+    };
+    while finished() < 5 {
+        assert!(child.try_wait().unwrap().is_none(), "ended too early");
+        sleep(Duration::from_millis(2));
+    }
+    let stopped = Command::new("kill").arg(child.id().to_string()).status();
+    assert!(stopped.unwrap().success());
+    assert!(!child.wait().unwrap().success());
+    let text = fs::read_to_string(results).unwrap();
+    assert!(finished() < 20);
+    // The slow point has not kept others from being finished.
+    let slow = "\"seed\":1,\"frequency\":0.25},\"outcome\":{\"response\"";
+    assert!(!text.contains(slow));
+}
+
+/// Stops a run, spoils its last line and has it go on.
+fn goes_on(way: impl Fn(&Path) -> Command, test: &str) {
+    let folder = folder(test);
+    let results = folder.join("results.jsonl");
+    stop_midway(way(&results), &results);
+    let mut bytes = fs::read(&results).unwrap();
+    assert_eq!(bytes.pop(), Some(b'\n'));
+    fs::write(&results, &bytes[..bytes.len() - 7]).unwrap();
+
+    let output = run(&mut way(&results));
+    assert!(errors(&output).contains("dropped a half-written last line"));
+    assert!(!errors(&output).contains(": 0 of 40 points are done"));
+    assert!(fs::read(&results).unwrap() == expected());
+
+    let output = run(&mut way(&results));
+    assert!(errors(&output).contains(": 40 of 40 points are done"));
+    assert!(!errors(&output).contains("failed:"));
+    let output = run(way(&results).arg("--retry"));
+    assert!(errors(&output).contains(": 20 of 40 points are done"));
+    assert!(fs::read(&results).unwrap() == expected());
+}
+
+#[test]
+fn threads_go_on_where_they_were_stopped() {
+    goes_on(alone, "threads");
+}
+
+#[cfg(feature = "mpi")]
+#[test]
+fn ranks_go_on_where_they_were_stopped() {
+    goes_on(ranks, "ranks");
+}
+
+/// A run that has been stopped goes on in any other way.
+#[cfg(feature = "mpi")]
+#[test]
+fn what_ranks_began_is_ended_in_parts() {
+    let folder = folder("mixed");
+    let results = folder.join("results.jsonl");
+    stop_midway(ranks(&results), &results);
+    run(&mut ranks(&results).arg("--part=2/2"));
+    run(&mut alone(&results).arg("--part=1/2"));
+    let parts = [1, 2].map(|k| folder.join(format!("results.{k}-of-2.jsonl")));
+    run(alone(&results).arg("--merge").args(parts));
+    assert!(fs::read(&results).unwrap() == expected());
+}
+
+#[test]
+fn parts_are_merged() {
+    let folder = folder("parts");
+    let results = folder.join("results.jsonl");
+    let mut parts = Vec::new();
+    for k in 1..=3 {
+        let output = run(alone(&results).arg(format!("--part={k}/3")));
+        assert_eq!(output.status.code(), Some(1));
+        parts.push(folder.join(format!("results.{k}-of-3.jsonl")));
+    }
+    let merge = |parts: &[PathBuf]| run(alone(&results).arg("--merge").args(parts));
+    let said = merge(&parts[..2]).stdout;
+    assert!(String::from_utf8_lossy(&said).contains("13 are missing"));
+    assert!(fs::read_to_string(&results).unwrap().lines().count() == 1 + POINTS - 13);
+    merge(&parts);
+    assert!(fs::read(&results).unwrap() == expected());
+}
+
+/// Runs that must fail, that say why, and that leave the file as it was.
+#[test]
+fn what_does_not_belong_is_refused() {
+    let folder = folder("errors");
+    let results = folder.join("results.jsonl");
+    let short = |extra: &[&str]| {
+        let mut command = Command::new(PROGRAM);
+        let short = ["--frequencies=5,6", "--discarded=1", "--averaged=2"];
+        command.args(short).arg("--results").arg(&results);
+        command.args(extra);
+        run(&mut command)
+    };
+    let refused = |extra: &[&str], reason: &str| {
+        let before = fs::read(&results).ok();
+        let output = short(extra);
+        assert!(!output.status.success());
+        assert!(errors(&output).contains(reason), "{}", errors(&output));
+        assert!(fs::read(&results).ok() == before);
+    };
+    refused(&["--part=4/3"], "there is no part 4 of 3");
+    refused(&["--part=0/3"], "parts are counted from 1");
+    refused(&["--frequencies=0"], "not a number above 0");
+    refused(&["--merge", "nowhere.jsonl"], "nowhere.jsonl");
+
+    fs::write(&results, "a note of mine").unwrap();
+    refused(&[], "not the first line of a file of results");
+    fs::remove_file(&results).unwrap();
+
+    assert!(short(&["--particles=0"]).status.success());
+    let whole = fs::read_to_string(&results).unwrap();
+    refused(
+        &["--particles=0", "--force=0.5"],
+        "is of another sweep: force 0.25 instead of 0.5",
+    );
+    let other = folder.join("other.jsonl");
+    fs::copy(&results, &other).unwrap();
+
+    fs::write(&results, whole.replace("\"rms_mean\":", "\"rms_mean\" ")).unwrap();
+    refused(&["--particles=0"], "line 2: not a result");
+    fs::write(&results, whole.replace("\"seed\":1,", "\"seed\":7,")).unwrap();
+    refused(&["--particles=0"], "line 2: the sweep has no such point");
+
+    let changed = whole.replacen("\"outside\":0", "\"outside\":1", 1);
+    fs::write(&results, changed).unwrap();
+    let other = other.to_string_lossy().into_owned();
+    refused(&["--merge", &other], "two results that differ");
+
+    // Half a first line, as of a run that was stopped at once, is no obstacle.
+    fs::write(&results, &whole[..40]).unwrap();
+    assert!(short(&["--particles=0"]).status.success());
+    assert!(fs::read_to_string(&results).unwrap() == whole);
+
+    let file = fs::File::open(&results).unwrap();
+    file.lock().unwrap();
+    refused(&["--particles=0"], "another run is writing it");
+}
