@@ -66,14 +66,16 @@ impl<S: Space> ImpulseSolver<S> {
     /// Keeps forces in the lists of their contacts, but for those that one solve settles anyway.
     fn store_forces<L: ImpulseLaw>(&self, step: &SolverStep, stamp: u32, blocks: &mut [Block<L>]) {
         let stamp = stamp.wrapping_add(1);
-        let mut coupled = self.coupled.iter().peekable();
+        let (constraints, infos) = (&*self.constraints, &self.infos[..self.constraints.len()]);
+        let mut coupled = self.coupled.as_slice();
         let mut ends = self.list_ends.iter();
         let mut keep = |list: &mut NeighbourList<L>| {
             let end = ends.next().map_or(0, |end| *end as u32);
-            while let Some(number) = coupled.next_if(|number| **number < end) {
-                let number = *number as usize;
-                if self.constraints[number].impulse > 0.0 {
-                    let info = &self.infos[number];
+            let own;
+            (own, coupled) = coupled.split_at(coupled.partition_point(|number| *number < end));
+            for number in own.iter().map(|number| *number as usize) {
+                if constraints[number].impulse > 0.0 {
+                    let info = &infos[number];
                     let force = self.force(number, step.time_step);
                     let held = HeldForce {
                         force,

@@ -5,7 +5,7 @@
 
 use super::constraint::TURNING;
 use super::prepare::{ConstraintInfo, ContactKinematics};
-use super::{ImpulseSolver, SolverStep};
+use super::{ImpulseSolver, SolverBody, SolverStep};
 use crate::cavity::Cavity;
 use crate::damper::neighbours::NeighbourList;
 use crate::damper::state::{Space, StateView};
@@ -50,6 +50,27 @@ impl<S: Space> Default for Lanes<S> {
 }
 
 impl<S: Space> Lanes<S> {
+    /// Takes pairs into the lanes.
+    #[inline(always)]
+    fn gather<C: Cavity, L: ImpulseLaw>(
+        &mut self,
+        view: &StateView<'_, C, L>,
+        bodies: &[SolverBody<S>],
+        pairs: &[[u32; 2]],
+    ) {
+        let radius = view.radius;
+        let bodies = &bodies[..radius.len()];
+        let position = &S::rows(view.position.flat())[..radius.len()];
+        for (n, [i, j]) in pairs.iter().take(LANES).enumerate() {
+            let (i, j) = (*i as usize, *j as usize);
+            let towards = S::from_row(position[i]) - S::from_row(position[j]);
+            self.towards[n] = towards;
+            self.closing[n] = S::dot(bodies[j].velocity - bodies[i].velocity, towards);
+            self.distance[n] = S::dot(towards, towards);
+            self.touching[n] = radius[i] + radius[j];
+        }
+    }
+
     /// Works out which of the first `count` pairs are in contact. Returns their lanes, and how many.
     #[inline(always)]
     fn find_active(&mut self, step: &SolverStep, count: usize) -> ([u8; LANES], usize) {
@@ -85,75 +106,65 @@ impl<S: Space> ImpulseSolver<S> {
     ) -> f64 {
         let start = self.constraints.len();
         let mut deepest = 0.0;
+        let Self {
+            bodies,
+            containers,
+            constraints,
+            infos,
+            contact_counts,
+            lanes,
+            ..
+        } = self;
+        // Columns of one length, so that one comparison stands for all their bounds.
+        let bodies = &bodies[..view.radius.len()];
+        let counts = &mut contact_counts[..view.radius.len()];
+        let only = view.coefficients.only_pair();
         let runs = list.contacts.bodies().chunks(LANES);
-        for (bodies, candidates) in runs.zip(list.contacts.candidates().chunks(LANES)) {
-            self.gather(view, bodies);
-            let (active, found) = self.lanes.find_active(step, bodies.len());
+        for (pairs, candidates) in runs.zip(list.contacts.candidates().chunks(LANES)) {
+            lanes.gather(view, bodies, pairs);
+            let (active, found) = lanes.find_active(step, pairs.len());
             for n in &active[..found.min(LANES)] {
                 let n = *n as usize % LANES;
-                let held = list.memory_of(candidates[n], view.stamp);
-                let [i, j] = bodies[n].map(|index| index as usize);
-                let lanes = &self.lanes;
+                let (pair, candidate) = (pairs[n], candidates[n]);
+                let [i, j] = pair.map(|index| index as usize);
+                let held = list.memory_of(candidate, view.stamp);
                 let lever = lanes.distance[n] / lanes.touching[n];
-                let inverse_mass = self.bodies[i].inverse_mass + self.bodies[j].inverse_mass;
+                let inverse_mass = bodies[i].inverse_mass + bodies[j].inverse_mass;
                 let kinematics = ContactKinematics {
                     overlap: lanes.touching[n] - lanes.distance[n],
                     approach: lanes.approach[n],
                     smaller_radius: at_most(view.radius[i], view.radius[j]),
                     inverse_masses: [inverse_mass, inverse_mass * (1.0 + TURNING * lever * lever)],
-                    speed_gain: self.containers.each[view.compartment_of(bodies[n][0])].speed_gain,
+                    speed_gain: containers.each[view.compartment_of(pair[0])].speed_gain,
                 };
-                let place = (bodies[n], lanes.towards[n] * lanes.inverse[n], lever);
+                let place = (pair, lanes.towards[n] * lanes.inverse[n], lever);
                 let other;
-                let own = if let Some(only) = view.coefficients.only_pair() {
+                let own = if let Some(only) = only {
                     only
                 } else {
-                    other = list.pair_coefficients(view, bodies[n], candidates[n]);
+                    other = list.pair_coefficients(view, pair, candidate);
                     &other
                 };
                 let (constraint, rests) = step.constrain(view.law, own, place, &kinematics, held);
                 deepest = at_least(kinematics.overlap, deepest);
-                self.constraints.push(constraint);
-                self.infos.push(ConstraintInfo {
-                    candidate: candidates[n],
+                constraints.push(constraint);
+                infos.push(ConstraintInfo {
+                    candidate,
                     wall: 0,
                     rests,
                     before: held.map_or(0.0, |held| held.force.normal),
                     speed_gain: kinematics.speed_gain,
                 });
-                self.contact_counts[i] += 1;
-                self.contact_counts[j] += 1;
+                counts[i] += 1;
+                counts[j] += 1;
             }
         }
         self.list_ends.push(self.constraints.len());
-        let only = view.coefficients.only_pair();
         if only.is_none_or(|own| view.law.rolling_arm(own) > 0.0) {
             self.resist_rolling(step, view, list, start, |constraint, info| {
                 list.pair_coefficients(view, constraint.bodies, info.candidate)
             });
         }
         deepest
-    }
-
-    /// Takes pairs into the lanes.
-    #[inline(always)]
-    fn gather<C: Cavity, L: ImpulseLaw>(
-        &mut self,
-        view: &StateView<'_, C, L>,
-        bodies: &[[u32; 2]],
-    ) {
-        let radius = view.radius;
-        // Columns of one length, so that one comparison stands for all their bounds.
-        let position = &S::rows(view.position.flat())[..radius.len()];
-        let bodies_now = &self.bodies[..radius.len()];
-        let lanes = &mut self.lanes;
-        for (n, [i, j]) in bodies.iter().take(LANES).enumerate() {
-            let (i, j) = (*i as usize, *j as usize);
-            let towards = S::from_row(position[i]) - S::from_row(position[j]);
-            lanes.towards[n] = towards;
-            lanes.closing[n] = S::dot(bodies_now[j].velocity - bodies_now[i].velocity, towards);
-            lanes.distance[n] = S::dot(towards, towards);
-            lanes.touching[n] = radius[i] + radius[j];
-        }
     }
 }

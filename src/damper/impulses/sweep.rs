@@ -40,32 +40,43 @@ impl<S: Space> ImpulseSolver<S> {
     /// Lists the constraints that one solve does not settle: those of which a body has more than one, and
     /// all where rolling is resisted.
     pub(super) fn list_coupled(&mut self) {
+        let all = !self.rolling.is_empty();
+        let yields = all || self.containers.yield_at_all();
+        let counts = self.contact_counts.as_slice();
+        let (pairs, walls) = self.constraints.split_at(self.pairs);
+        let count = |body: u32| counts[body as usize];
+        let pairs = (0..).zip(pairs).filter(|(_, pair)| {
+            let [first, second] = pair.bodies;
+            all || count(first) + count(second) != 2
+        });
+        let walls = (self.pairs as u32..).zip(walls);
+        let walls = walls.filter(|(_, wall)| yields || count(wall.bodies[0]) != 1);
         self.coupled.clear();
-        let yields = self.containers.yield_at_all();
-        for (number, constraint) in (0..).zip(&self.constraints) {
-            let [first, second] = constraint.bodies.map(|body| body as usize);
-            let alone = if (number as usize) < self.pairs {
-                self.contact_counts[first] + self.contact_counts[second] == 2
-            } else {
-                self.contact_counts[first] == 1 && !yields
-            };
-            if !alone || !self.rolling.is_empty() {
-                self.coupled.push(number);
-            }
-        }
+        self.coupled.extend(pairs.map(|(number, _)| number));
+        self.coupled.extend(walls.map(|(number, _)| number));
     }
 
     /// Gives what contacts start from.
     pub(super) fn warm_start(&mut self) {
-        for number in 0..self.constraints.len() {
-            let constraint = &self.constraints[number];
-            if constraint.impulse > 0.0 {
-                let change = constraint.so_far();
-                self.give(number, &change);
+        let (pairs, walls) = self.constraints.split_at(self.pairs);
+        for pair in pairs {
+            if pair.impulse > 0.0 {
+                let change = pair.so_far();
+                let [first, second] = pair.bodies.map(|body| body as usize);
+                self.bodies[first].add(&change);
+                self.bodies[second].subtract(&change);
             }
-            if let Some(rolling) = self.rolling.get(number) {
-                self.roll(number, rolling.impulse);
+        }
+        for wall in walls {
+            if wall.impulse > 0.0 {
+                let change = wall.so_far();
+                let [index, cavity] = wall.bodies.map(|body| body as usize);
+                self.bodies[index].add(&change);
+                self.containers.add(cavity, change.impulse * -1.0);
             }
+        }
+        for number in 0..self.rolling.len() {
+            self.roll(number, self.rolling[number].impulse);
         }
     }
 

@@ -71,8 +71,10 @@ impl<C: Cavity, L: ContactLaw> StateView<'_, C, L> {
     /// Number of the compartment that a particle is in.
     #[inline(always)]
     pub(crate) fn compartment_of(&self, index: u32) -> usize {
-        self.compartments
-            .partition_point(|compartment| compartment.indices.end <= index as usize)
+        match self.compartments {
+            [_] => 0,
+            all => all.partition_point(|compartment| compartment.indices.end <= index as usize),
+        }
     }
 
     /// How a wall stands to a point of the fixed frame.
