@@ -66,21 +66,22 @@ impl<S: Space> ImpulseSolver<S> {
     /// Keeps forces in the lists of their contacts, but for those that one solve settles anyway.
     fn store_forces<L: ImpulseLaw>(&self, step: &SolverStep, stamp: u32, blocks: &mut [Block<L>]) {
         let stamp = stamp.wrapping_add(1);
+        let time_step = step.time_step;
         let (constraints, infos) = (&*self.constraints, &self.infos[..self.constraints.len()]);
         let mut coupled = self.coupled.as_slice();
         let mut ends = self.list_ends.iter();
-        let mut keep = |list: &mut NeighbourList<L>| {
+        let mut keep = move |list: &mut NeighbourList<L>| {
             let end = ends.next().map_or(0, |end| *end as u32);
             let own;
             (own, coupled) = coupled.split_at(coupled.partition_point(|number| *number < end));
             for number in own.iter().map(|number| *number as usize) {
                 if constraints[number].impulse > 0.0 {
                     let info = &infos[number];
-                    let force = self.force(number, step.time_step);
+                    let force = self.force(number, time_step);
                     let held = HeldForce {
                         force,
                         load: at_most(force.normal, info.before),
-                        gravity: info.speed_gain / step.time_step,
+                        gravity: info.speed_gain / time_step,
                     };
                     list.keep(info.candidate, stamp, &held);
                 }

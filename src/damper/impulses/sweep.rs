@@ -12,13 +12,11 @@ use crate::damper::state::Space;
 #[inline(always)]
 fn solve_pair<S: Space>(constraint: &mut ContactConstraint<S>, bodies: &mut [SolverBody<S>]) {
     let [i, j] = constraint.bodies.map(|index| index as usize);
-    let (mut first, mut second) = (bodies[i], bodies[j]);
+    let (first, second) = (&bodies[i], &bodies[j]);
     let velocity = first.velocity - second.velocity;
     let change = constraint.solve(velocity, first.spin + second.spin);
-    first.add(&change);
-    second.subtract(&change);
-    bodies[i] = first;
-    bodies[j] = second;
+    bodies[i].add(&change);
+    bodies[j].subtract(&change);
 }
 
 /// Solves the contact of a particle with a wall.
@@ -42,24 +40,26 @@ impl<S: Space> ImpulseSolver<S> {
     pub(super) fn list_coupled(&mut self) {
         let all = !self.rolling.is_empty();
         let yields = all || self.containers.yield_at_all();
-        let counts = self.contact_counts.as_slice();
+        let contacts = |body: u32| self.contact_counts[body as usize];
+        self.coupled.resize(self.constraints.len(), 0);
         let (pairs, walls) = self.constraints.split_at(self.pairs);
-        let count = |body: u32| counts[body as usize];
-        let pairs = (0..).zip(pairs).filter(|(_, pair)| {
+        let mut found = 0;
+        for (number, pair) in (0..).zip(pairs) {
+            // Written before it is known whether it counts: no branch to mispredict.
+            self.coupled[found] = number;
             let [first, second] = pair.bodies;
-            all || count(first) + count(second) != 2
-        });
-        let walls = (self.pairs as u32..).zip(walls);
-        let walls = walls.filter(|(_, wall)| yields || count(wall.bodies[0]) != 1);
-        self.coupled.clear();
-        self.coupled.extend(pairs.map(|(number, _)| number));
-        self.coupled.extend(walls.map(|(number, _)| number));
+            found += usize::from(all || contacts(first) + contacts(second) != 2);
+        }
+        for (number, wall) in (self.pairs as u32..).zip(walls) {
+            self.coupled[found] = number;
+            found += usize::from(yields || contacts(wall.bodies[0]) != 1);
+        }
+        self.coupled.truncate(found);
     }
 
     /// Gives what contacts start from.
     pub(super) fn warm_start(&mut self) {
-        let (pairs, walls) = self.constraints.split_at(self.pairs);
-        for pair in pairs {
+        for pair in &self.constraints[..self.pairs] {
             if pair.impulse > 0.0 {
                 let change = pair.so_far();
                 let [first, second] = pair.bodies.map(|body| body as usize);
@@ -67,12 +67,10 @@ impl<S: Space> ImpulseSolver<S> {
                 self.bodies[second].subtract(&change);
             }
         }
-        for wall in walls {
-            if wall.impulse > 0.0 {
-                let change = wall.so_far();
-                let [index, cavity] = wall.bodies.map(|body| body as usize);
-                self.bodies[index].add(&change);
-                self.containers.add(cavity, change.impulse * -1.0);
+        for number in self.pairs..self.constraints.len() {
+            if self.constraints[number].impulse > 0.0 {
+                let change = self.constraints[number].so_far();
+                self.give(number, &change);
             }
         }
         for number in 0..self.rolling.len() {
