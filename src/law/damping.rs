@@ -93,7 +93,7 @@ impl Damping {
     #[inline]
     pub(super) fn of_mass(self, part: f64) -> f64 {
         match self {
-            Self::Viscoelastic => libm::pow(part, 0.4),
+            Self::Viscoelastic => fifth_root(part * part),
             Self::Tsuji => part.sqrt(),
         }
     }
@@ -116,6 +116,21 @@ impl Damping {
         };
         coefficient * depth / impact.effective_mass()
     }
+}
+
+/// The fifth root of a positive number, to two units in the last place: by Halley's method, which takes a
+/// third of the work of a power. It is asked for at every evaluation of a contact with a wall that yields.
+#[inline(always)]
+fn fifth_root(number: f64) -> f64 {
+    /// Four fifths of the bits of 1, less what makes the first guess right on the mean: to 4 %.
+    const SHIFT: u64 = 0x3325_E000_0000_0000;
+    let mut root = f64::from_bits(number.to_bits() / 5 + SHIFT);
+    for _ in 0..3 {
+        let square = root * root;
+        let power = square * square * root;
+        root += root * ((number - power) / (3.0 * power + 2.0 * number));
+    }
+    root
 }
 
 /// Where a function that falls without end from a positive value at zero is zero: regula falsi in
@@ -167,6 +182,15 @@ mod tests {
                 }
                 assert!(damping.number(1.0, ending).unwrap().abs() < 1e-15);
             }
+        }
+    }
+
+    #[test]
+    fn the_fifth_root_is_that_of_the_power() {
+        for n in 0..2000 {
+            let number = libm::exp(-0.02 * f64::from(n));
+            let root = fifth_root(number);
+            assert_relative_eq!(root, libm::pow(number, 0.2), max_relative = 5e-16);
         }
     }
 
