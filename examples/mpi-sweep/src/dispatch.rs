@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use crate::sweep::{Record, Task};
+use crate::record::{Record, Task};
 
 pub type Failure = Box<dyn Error + Send + Sync>;
 

@@ -7,8 +7,10 @@ use crate::Options;
 use crate::dispatch::{Failure, Workers, work_off};
 use crate::part::Part;
 use crate::progress::Progress;
+use crate::record::Task;
 use crate::results::{self, Records, Results};
-use crate::sweep::{Outcome, Record, Sweep, Task};
+use crate::summary;
+use crate::sweep::Sweep;
 
 /// A sweep that is about to run, or to go on.
 pub struct Job {
@@ -34,11 +36,11 @@ impl Job {
         tasks.retain(|task| part.holds(task.number));
         let left = |task: &Task| match results.records().get(&task.number) {
             None => true,
-            Some(record) => options.retry && matches!(record.outcome, Outcome::Failed(_)),
+            Some(record) => options.retry && record.outcome.failed(),
         };
         let mut to_do: Vec<Task> = tasks.iter().copied().filter(left).collect();
         // The longest first, so that nobody waits for another at the end.
-        to_do.sort_by(|a, b| b.work().total_cmp(&a.work()));
+        to_do.sort_by(|a, b| b.point.work().total_cmp(&a.point.work()));
         eprintln!(
             "{}: {} of {} points are done",
             path.display(),
@@ -72,7 +74,8 @@ impl Job {
         })?;
         results.put_in_order()?;
         println!("results in {}", path.display());
-        Ok(summary(results.records(), &part))
+        summary::write_cells(&sweep, results.records(), &path)?;
+        Ok(summary::tell(results.records(), &part))
     }
 }
 
@@ -104,44 +107,6 @@ pub fn merge(options: &Options) -> Result<ExitCode, Failure> {
     results.join(records)?;
     results.put_in_order()?;
     println!("results in {}", options.results.display());
-    Ok(summary(results.records(), &sweep.tasks()))
-}
-
-/// Prints the highest point of each number of particles, and whether all is well.
-fn summary(records: &Records, tasks: &[Task]) -> ExitCode {
-    let of_tasks = || tasks.iter().map(|task| records.get(&task.number));
-    let missing = of_tasks().filter(Option::is_none).count();
-    let (mut failed, mut peaks) = (0, Vec::<&Record>::new());
-    let height = |record: &Record| match &record.outcome {
-        Outcome::Response(response) => response.first_harmonic,
-        Outcome::Failed(_) => f64::NEG_INFINITY,
-    };
-    for record in of_tasks().flatten() {
-        if matches!(record.outcome, Outcome::Failed(_)) {
-            failed += 1;
-            continue;
-        }
-        let particles = record.point.particles;
-        match peaks
-            .iter_mut()
-            .find(|peak| peak.point.particles == particles)
-        {
-            Some(peak) if height(peak) >= height(record) => {}
-            Some(peak) => *peak = record,
-            None => peaks.push(record),
-        }
-    }
-    for peak in peaks {
-        let height = height(peak);
-        println!("highest first harmonic {height:.3} F/K: {}", peak.point);
-    }
-    if missing + failed == 0 {
-        println!("all {} points are there", tasks.len());
-        return ExitCode::SUCCESS;
-    }
-    println!(
-        "of {} points {failed} failed, {missing} are missing",
-        tasks.len()
-    );
-    ExitCode::FAILURE
+    summary::write_cells(&sweep, results.records(), &options.results)?;
+    Ok(summary::tell(results.records(), &sweep.tasks()))
 }

@@ -1,4 +1,5 @@
-//! A response curve whose points are spread over the ranks of a cluster, or over the jobs of an array.
+//! Response curves and effective fields whose points are spread over the ranks of a cluster, or over the jobs
+//! of an array.
 //!
 //! Points are handed out one by one. What is finished is on disk at once, and a second run goes on where
 //! the first was stopped; the results are those of one process to the last bit. See README.md.
@@ -21,12 +22,14 @@ mod part;
 mod progress;
 #[cfg(feature = "mpi")]
 mod ranks;
+mod record;
 mod results;
+mod summary;
 mod sweep;
 mod threads;
 mod values;
 
-/// Response curves of the paper's particle damper, point by point, on as many cores as there are.
+/// Response curves or effective fields of the paper's particle damper, point by point, on as many cores as there are.
 ///
 /// Ends with 1 if points failed or are missing. Points that failed are not tried again unless asked for.
 #[derive(Debug, Parser)]

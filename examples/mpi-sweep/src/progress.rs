@@ -3,7 +3,7 @@
 use std::fmt;
 use std::time::{Duration, Instant};
 
-use crate::sweep::{Outcome, Record, Task};
+use crate::record::{Outcome, Record, Task};
 
 /// At most one line in so long a time, for the sake of logs.
 const INTERVAL: Duration = Duration::from_secs(1);
@@ -24,8 +24,8 @@ impl Progress {
     /// Of these `tasks`, out of `all` of the sweep.
     pub fn new(all: &[Task], tasks: &[Task]) -> Self {
         Self {
-            work: all.iter().map(Task::work).collect(),
-            to_do: tasks.iter().map(Task::work).sum(),
+            work: all.iter().map(|task| task.point.work()).collect(),
+            to_do: tasks.iter().map(|task| task.point.work()).sum(),
             done: 0.0,
             tasks: tasks.len(),
             finished: 0,
@@ -40,12 +40,12 @@ impl Progress {
         let work = self.work[record.number];
         self.finished += 1;
         match &record.outcome {
-            Outcome::Response(_) => self.done += work,
             Outcome::Failed(reason) => {
                 self.failed += 1;
                 self.to_do -= work;
-                eprintln!("failed: {reason}");
+                eprintln!("failed: {}: {reason}", record.point);
             }
+            _ => self.done += work,
         }
         let due = self.told.is_none_or(|told| told.elapsed() > INTERVAL);
         if due || self.finished == self.tasks {

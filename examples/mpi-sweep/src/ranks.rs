@@ -10,7 +10,8 @@ use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Destination, Source};
 
 use crate::dispatch::{Failure, Workers};
-use crate::sweep::{Record, Sweep, Task};
+use crate::record::{Record, Task};
+use crate::sweep::Sweep;
 use crate::threads::Threads;
 
 /// Between looks.

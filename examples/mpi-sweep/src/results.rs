@@ -11,7 +11,8 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::dispatch::Failure;
-use crate::sweep::{Outcome, Record, Sweep};
+use crate::record::{Outcome, Record};
+use crate::sweep::Sweep;
 
 /// Records by the number of their task.
 pub type Records = BTreeMap<usize, Record>;
@@ -71,14 +72,14 @@ fn parse<T: for<'a> Deserialize<'a>>(path: &Path, line: usize, text: &[u8]) -> R
     })
 }
 
-/// Takes up a record. A response takes the place of a failure; two responses must be the same.
+/// Takes up a record. A result takes the place of a failure; two results must be the same.
 pub fn join(records: &mut Records, record: Record) -> Result<(), Failure> {
     let known = records.get(&record.number).map(|known| &known.outcome);
     match (known, &record.outcome) {
-        (Some(Outcome::Response(known)), Outcome::Response(response)) if known != response => {
+        (Some(known), Outcome::Failed(_)) if !known.failed() => {}
+        (Some(known), outcome) if !known.failed() && known != outcome => {
             return Err(format!("two results that differ: {}", record.point).into());
         }
-        (Some(Outcome::Response(_)), Outcome::Failed(_)) => {}
         _ => {
             records.insert(record.number, record);
         }

@@ -5,7 +5,8 @@ use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 
 use crate::dispatch::{Failure, Workers};
-use crate::sweep::{Record, Sweep, Task};
+use crate::record::{Record, Task};
+use crate::sweep::Sweep;
 
 type Report = (usize, Record);
 

@@ -16,11 +16,11 @@ const SWEEP: [&str; 8] = [
     "--particles=20,5000",
     "--seeds=1",
     "--frequencies=0.25,5:7:19",
-    "--discarded=5",
-    "--averaged=10",
+    "--discarded=2",
+    "--averaged=5",
     "--threads=2",
     "--law=restitution",
-    "--force=0.25",
+    "--amplitudes=0.25",
 ];
 const POINTS: usize = 40;
 
@@ -34,7 +34,7 @@ fn folder(test: &str) -> PathBuf {
 
 fn alone(results: &Path) -> Command {
     let mut command = Command::new(PROGRAM);
-    command.args(SWEEP).arg("--results").arg(results);
+    command.arg("--results").arg(results);
     command
 }
 
@@ -42,7 +42,7 @@ fn alone(results: &Path) -> Command {
 fn ranks(results: &Path) -> Command {
     let mut command = Command::new("mpirun");
     command.args(["--allow-run-as-root", "--oversubscribe", "-n", "3", PROGRAM]);
-    command.args(SWEEP).arg("--results").arg(results);
+    command.arg("--results").arg(results);
     command
 }
 
@@ -62,7 +62,7 @@ fn expected() -> &'static [u8] {
 
 fn one_process() -> Vec<u8> {
     let path = folder("one").join("results.jsonl");
-    let output = run(alone(&path).arg("--threads=1"));
+    let output = run(alone(&path).args(SWEEP).arg("--threads=1"));
     // Twenty points fail, and the rest goes on.
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(
@@ -72,17 +72,18 @@ fn one_process() -> Vec<u8> {
     let bytes = fs::read(&path).unwrap();
     let text = String::from_utf8_lossy(&bytes);
     assert_eq!(text.lines().count(), 1 + POINTS);
-    assert_eq!(text.matches("\"response\"").count(), 20);
+    assert_eq!(text.matches("\"outcome\":{\"response\"").count(), 20);
     bytes
 }
 
 /// Stops the program when a few points are on disk.
 fn stop_midway(mut command: Command, results: &Path) {
+    let command = command.args(SWEEP);
     let quiet = command.stdout(Stdio::null()).stderr(Stdio::null());
     let mut child = quiet.spawn().unwrap();
     let finished = || {
         let text = fs::read_to_string(results).unwrap_or_default();
-        text.matches("\"response\"").count()
+        text.matches("\"outcome\":{\"response\"").count()
     };
     while finished() < 5 {
         assert!(child.try_wait().unwrap().is_none(), "ended too early");
@@ -106,15 +107,15 @@ fn goes_on(way: impl Fn(&Path) -> Command, test: &str) {
     assert_eq!(bytes.pop(), Some(b'\n'));
     fs::write(&results, &bytes[..bytes.len() - 7]).unwrap();
 
-    let output = run(&mut way(&results));
+    let output = run(way(&results).args(SWEEP));
     assert!(errors(&output).contains("dropped a half-written last line"));
     assert!(!errors(&output).contains(": 0 of 40 points are done"));
     assert!(fs::read(&results).unwrap() == expected());
 
-    let output = run(&mut way(&results));
+    let output = run(way(&results).args(SWEEP));
     assert!(errors(&output).contains(": 40 of 40 points are done"));
     assert!(!errors(&output).contains("failed:"));
-    let output = run(way(&results).arg("--retry"));
+    let output = run(way(&results).args(SWEEP).arg("--retry"));
     assert!(errors(&output).contains(": 20 of 40 points are done"));
     assert!(fs::read(&results).unwrap() == expected());
 }
@@ -137,8 +138,8 @@ fn what_ranks_began_is_ended_in_parts() {
     let folder = folder("mixed");
     let results = folder.join("results.jsonl");
     stop_midway(ranks(&results), &results);
-    run(ranks(&results).arg("--part=2/2"));
-    run(alone(&results).arg("--part=1/2"));
+    run(ranks(&results).args(SWEEP).arg("--part=2/2"));
+    run(alone(&results).args(SWEEP).arg("--part=1/2"));
     let parts = [1, 2].map(|k| folder.join(format!("results.{k}-of-2.jsonl")));
     run(alone(&results).arg("--merge").args(parts));
     assert!(fs::read(&results).unwrap() == expected());
@@ -150,7 +151,7 @@ fn parts_are_merged() {
     let results = folder.join("results.jsonl");
     let mut parts = Vec::new();
     for k in 1..=3 {
-        let output = run(alone(&results).arg(format!("--part={k}/3")));
+        let output = run(alone(&results).args(SWEEP).arg(format!("--part={k}/3")));
         assert_eq!(output.status.code(), Some(1));
         parts.push(folder.join(format!("results.{k}-of-3.jsonl")));
     }
@@ -162,17 +163,44 @@ fn parts_are_merged() {
     assert!(fs::read(&results).unwrap() == expected());
 }
 
+/// Effective fields go the same ways, and their cells are the same.
+#[test]
+fn fields_too() {
+    let folder = folder("fields");
+    let results = folder.join("results.jsonl");
+    let fields = |command: &mut Command| {
+        let points = ["--particles=20,60", "--seeds=1,2", "--amplitudes=0.01,0.03"];
+        let kind = ["--of=fields", "--frequencies=6,8", "--quick"];
+        let output = run(command.args(kind).args(points));
+        assert!(output.status.success(), "{}", errors(&output));
+    };
+    let both = |results: &Path| {
+        let cells = results.with_extension("cells.jsonl");
+        [results, &cells].map(|path| fs::read(path).unwrap())
+    };
+    let one = folder.join("one.jsonl");
+    fields(alone(&one).arg("--threads=1"));
+    let text = String::from_utf8(both(&one)[1].clone()).unwrap();
+    assert_eq!(text.lines().count(), 8);
+
+    fields(alone(&results).arg("--part=1/2"));
+    #[cfg(feature = "mpi")]
+    fields(ranks(&results).arg("--part=2/2"));
+    #[cfg(not(feature = "mpi"))]
+    fields(alone(&results).arg("--part=2/2"));
+    let parts = [1, 2].map(|k| folder.join(format!("results.{k}-of-2.jsonl")));
+    fields(alone(&results).arg("--merge").args(parts));
+    assert!(both(&results) == both(&one));
+}
+
 /// Runs that must fail, that say why, and that leave the file as it was.
 #[test]
 fn what_does_not_belong_is_refused() {
     let folder = folder("errors");
     let results = folder.join("results.jsonl");
     let short = |extra: &[&str]| {
-        let mut command = Command::new(PROGRAM);
         let short = ["--frequencies=5,6", "--discarded=1", "--averaged=2"];
-        command.args(short).arg("--results").arg(&results);
-        command.args(extra);
-        run(&mut command)
+        run(alone(&results).args(short).args(extra))
     };
     let refused = |extra: &[&str], reason: &str| {
         let before = fs::read(&results).ok();
@@ -193,8 +221,8 @@ fn what_does_not_belong_is_refused() {
     assert!(short(&["--particles=0"]).status.success());
     let whole = fs::read_to_string(&results).unwrap();
     refused(
-        &["--particles=0", "--force=0.5"],
-        "is of another sweep: force 0.25 instead of 0.5",
+        &["--particles=0", "--amplitudes=0.5"],
+        "is of another sweep: amplitudes [0.25] instead of [0.5]",
     );
     let other = folder.join("other.jsonl");
     fs::copy(&results, &other).unwrap();
