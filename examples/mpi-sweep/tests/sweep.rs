@@ -11,7 +11,7 @@ use std::time::Duration;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_mpi-sweep");
 
-/// One point that takes as long as all others together and more, and one that fails.
+/// A point that takes as long as all others together and more, and twenty that fail.
 const SWEEP: [&str; 8] = [
     "--particles=20,5000",
     "--seeds=1",
