@@ -92,7 +92,7 @@
 //!
 //! The overlaps are those of blows, which last some steps; an error comes at
 //! [0.7 radii](crate::Builder::overlap_limit). To be rerun with
-//! `cargo test --release --test coarse_law -- --ignored --nocapture responses`.
+//! `cargo test --release --test physics -- --ignored --nocapture coarse_law::responses`.
 //!
 //! What the crate itself is checked against, with sources and tolerances: `tests/validation/`. Which
 //! bits stay the same: same inputs, same bits, whatever the detector, the number of threads, and

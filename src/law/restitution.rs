@@ -32,7 +32,7 @@ const TRAVEL: f64 = 0.2;
 /// - The paper's damper at its resonances (20, 40, 60 particles, 5.5 to 6.75 Hz) responds as under the
 ///   strict law of the same restitution ([`Damping::Tsuji`], steps of 5 us) to 1.5 % at worst and 0.3 % on
 ///   the mean, at steps of 0.1 ms and of 0.2 ms alike, with overlaps of up to 0.13 and 0.25 radii
-///   (`tests/coarse_law.rs`, long form).
+///   (`tests/physics/coarse_law.rs`, long form).
 /// - Beds that are shaken at 1.1 to 3 g keep overlaps below 0.05 radii from 20 Hz on, and below 0.1 at
 ///   10 Hz, also where one half is up to 16 times as heavy as the other.
 /// - Heavy on light wants more [sweeps](SolverParameters::sweeps): 16 at a mass ratio of 100, 64 at 1000.

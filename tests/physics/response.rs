@@ -1,7 +1,7 @@
 //! Response curves against closed forms, and against a reference computed independently: RMS of the
 //! displacement over F/K of the paper's system, strict law, Runge-Kutta, 20 microseconds.
 //!
-//! All points of Fig. 11 take minutes: `cargo test --release --test response -- --ignored`.
+//! All points of Fig. 11 take minutes: `cargo test --release --test physics -- --ignored response`.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;

@@ -1,7 +1,7 @@
 //! What the coarse law holds where users shake beds: overlaps stay small over amplitude, frequency, mass
 //! ratio, size and time, and a response is that of the strict law of the same restitution.
 //!
-//! The long forms (ignored) take every row for the time that it names; `cargo test --test coarse_law --
+//! The long forms (ignored) take every row for the time that it names; `cargo test --test physics --
 //! --ignored --nocapture` prints what they find.
 
 use std::f64::consts::TAU;

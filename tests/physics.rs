@@ -1,0 +1,20 @@
+//! What a bed does: mechanics, energy, laws, fillings and responses.
+//!
+//! One program, so that what several files build dampers of is compiled once.
+
+#[path = "physics/coarse_law.rs"]
+mod coarse_law;
+#[path = "physics/filling.rs"]
+mod filling;
+#[path = "physics/impulses.rs"]
+mod impulses;
+#[path = "physics/ledger.rs"]
+mod ledger;
+#[path = "physics/mechanics.rs"]
+mod mechanics;
+#[path = "physics/mixed.rs"]
+mod mixed;
+#[path = "physics/response.rs"]
+mod response;
+#[path = "physics/rolling.rs"]
+mod rolling;
