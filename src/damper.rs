@@ -14,8 +14,7 @@ use crate::observer::{Observable, Observer};
 use crate::particle::Particle;
 use crate::step_error::StepError;
 use engine::Engine;
-use snapshot::Setup;
-use state::Clock;
+use state::{Clock, Setup};
 
 mod builder;
 mod drive;
@@ -286,16 +285,5 @@ where
         self.particles()
             .map(|particle| particle.velocity * particle.mass)
             .sum()
-    }
-}
-
-impl<C: Cavity, L: ContactLaw> Damper<C, L, Driven, Skin<LinkedCells>> {
-    /// A builder for particles in `cavity` that meet by `law`.
-    ///
-    /// Unless told otherwise, the container is [`Driven`] and at rest, contacts are found by
-    /// [`LinkedCells`] with a [`Skin`] (the fastest for every bed measured in `benches/step.rs`), and
-    /// the integrator is [`VelocityVerlet`].
-    pub fn builder(cavity: C, law: L) -> Builder<C, L> {
-        Builder::new(cavity, law)
     }
 }

@@ -110,6 +110,7 @@ pub mod cavity;
 mod contact;
 mod damper;
 pub mod detector;
+mod digest;
 mod error;
 pub mod excitation;
 pub mod fields;

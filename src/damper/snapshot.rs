@@ -7,22 +7,19 @@ use glam::DVec3;
 use super::Damper;
 use super::engine::Engine;
 use super::neighbours::ContactRecord;
-use super::state::{Clock, MountCoordinates};
+use super::state::{Clock, MountCoordinates, Setup};
 use crate::cavity::Cavity;
 use crate::contact::WallLoad;
 use crate::detector::Detector;
+use crate::digest::Digest;
 use crate::integrator::Integrator;
 use crate::law::{ContactLaw, ContactMemory, LawKind};
 use crate::mount::{Motion, Mount};
 use crate::step_error::StepError;
 
-mod digest;
 mod recording;
-mod setup;
 
-pub(crate) use digest::Digest;
 pub use recording::{Recorded, Recording, ReplayError};
-pub(crate) use setup::Setup;
 
 /// Number of the layout of [`Snapshot`], which changes with it.
 const VERSION: u32 = 1;

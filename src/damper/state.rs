@@ -21,6 +21,7 @@ mod model;
 mod mount_coordinates;
 mod particles;
 mod previous;
+mod setup;
 mod space;
 mod vectors;
 mod view;
@@ -34,6 +35,7 @@ pub(crate) use model::Model;
 pub(crate) use mount_coordinates::MountCoordinates;
 pub(crate) use particles::Particles;
 pub(crate) use previous::PreviousAccelerations;
+pub(crate) use setup::Setup;
 pub(crate) use space::{Plane, Space, Volume};
 #[cfg(test)]
 pub(crate) use vectors::Axes;

@@ -52,13 +52,15 @@ fn paths(tree: &str) -> Vec<String> {
     named.flat_map(|part| paths(part)).map(whole).collect()
 }
 
-/// The path that a module means by `path`, from the crate's root on; none if it is another crate's.
-fn absolute(module: &[String], path: &str) -> Option<Vec<String>> {
+/// The path that a module with these `children` means by `path`, from the crate's root on; none if it is
+/// another crate's.
+fn absolute(module: &[String], children: &[String], path: &str) -> Option<Vec<String>> {
     let mut base = module.to_vec();
     let mut rest: Vec<&str> = path.split("::").map(str::trim).collect();
     match rest[0] {
         "crate" => base.clear(),
         "super" => {}
+        child if children.iter().any(|own| own == child) => {}
         _ => return None,
     }
     while rest[0] == "super" {
@@ -84,6 +86,31 @@ fn node(path: &[String]) -> Option<String> {
     }
 }
 
+/// The paths in `code`: those that a `use` names, and those of the crate that stand by themselves.
+fn named_in(code: &str) -> Vec<String> {
+    let mut named = Vec::new();
+    for part in code.split(';').map(str::trim_start) {
+        if let Some(tree) = part.strip_prefix("use ") {
+            named.extend(paths(tree));
+        } else if !part.starts_with("pub") || !part.contains(" use ") {
+            // What a macro names is for where it is used.
+            let starts = part.match_indices("crate::");
+            for (at, _) in starts.filter(|(at, _)| !part[..*at].ends_with('$')) {
+                let in_path = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
+                named.push(part[at..].chars().take_while(|c| in_path(*c)).collect());
+            }
+        }
+    }
+    named
+}
+
+/// The modules that `code` declares.
+fn children_in(code: &str) -> Vec<String> {
+    let parts = code.split(';').map(str::trim_start);
+    let declared = parts.filter_map(|part| part.split_once("mod "));
+    declared.map(|(_, child)| child.trim().to_owned()).collect()
+}
+
 fn imports() -> Graph {
     let mut found = Vec::new();
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
@@ -96,25 +123,10 @@ fn imports() -> Graph {
         }
         let own = node(&module).unwrap();
         let code = code(&text);
-        let mut named: Vec<String> = Vec::new();
-        for part in code.split(';') {
-            let start = part.trim_start();
-            if let Some(tree) = start.strip_prefix("use ") {
-                named.extend(paths(tree));
-            } else if !start.starts_with("pub") || !start.contains(" use ") {
-                let inline = part
-                    .match_indices("crate::")
-                    .filter(|(at, _)| !part[..*at].ends_with('$'));
-                named.extend(inline.map(|(at, _)| {
-                    let end =
-                        part[at..].find(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':'));
-                    part[at..at + end.unwrap_or(part.len() - at)].to_owned()
-                }));
-            }
-        }
+        let (named, children) = (named_in(&code), children_in(&code));
         let targets = named
             .iter()
-            .filter_map(|path| node(&absolute(&module, path)?));
+            .filter_map(|path| node(&absolute(&module, &children, path)?));
         let targets: BTreeSet<_> = targets.filter(|target| *target != own).collect();
         graph.entry(own).or_default().extend(targets);
     }
@@ -135,10 +147,8 @@ fn circle(
         return None;
     }
     walk.push(module.to_owned());
-    let next = graph.get(module).into_iter().flatten();
-    let found = next
-        .filter_map(|next| circle(graph, next, walk, done))
-        .next();
+    let mut next = graph.get(module).into_iter().flatten();
+    let found = next.find_map(|next| circle(graph, next, walk, done));
     walk.pop();
     found
 }

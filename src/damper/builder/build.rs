@@ -10,10 +10,9 @@ use crate::damper::engine::Engine;
 use crate::damper::forces::Forces;
 use crate::damper::impulses::ContactSolver;
 use crate::damper::neighbours::{BLOCK, Neighbours};
-use crate::damper::snapshot::Setup;
 use crate::damper::state::{
     Clock, Coefficients, Compartment, Model, MountCoordinates, Particles, PreviousAccelerations,
-    State, StepStart,
+    Setup, State, StepStart,
 };
 use crate::detector::Detector;
 use crate::error::{Bound, ValueError};
@@ -96,7 +95,7 @@ where
         };
         engine.start(self.initial_overlap * smallest)?;
         Ok(Damper {
-            setup: Setup::new(&engine, time_step),
+            setup: Setup::new(&engine.state, time_step),
             engine,
             integrator: self.integrator,
             clock: Clock::showing(self.start_time),

@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 use std::fmt;
 
-use super::digest::Digest;
 use super::{RestoreError, Snapshot};
 use crate::cavity::Cavity;
 use crate::damper::{Damper, Reaction};
 use crate::detector::{Detector, LinkedCells, Skin};
+use crate::digest::Digest;
 use crate::integrator::{Integrator, VelocityVerlet};
 use crate::law::{ContactLaw, ContactMemory, LawKind};
 use crate::mount::{Driven, Motion};

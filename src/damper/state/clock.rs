@@ -1,6 +1,6 @@
 //! Simulated time.
 
-use crate::damper::snapshot::Digest;
+use crate::digest::Digest;
 
 /// What the times of a host may be off by, s: those of an interval that ends within 1e7 s of the origin
 /// are each rounded by 0.93e-9 s.

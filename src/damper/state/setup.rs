@@ -2,12 +2,10 @@
 
 use glam::{DVec3, dvec3};
 
-use super::digest::Digest;
+use super::{Coefficients, State};
 use crate::cavity::Cavity;
 use crate::contact::{Body, Contact};
-use crate::damper::engine::Engine;
-use crate::damper::state::Coefficients;
-use crate::detector::Detector;
+use crate::digest::Digest;
 use crate::law::{ContactLaw, ForceLaw, ImpulseLaw, LawKind, LawVisitor};
 use crate::mount::Mount;
 
@@ -33,38 +31,31 @@ impl Setup {
         }
     }
 
-    /// The setup of `engine` under steps of `time_step` (s).
-    pub(crate) fn new<C, L, M, D>(engine: &Engine<C, L, M, D>, time_step: f64) -> Self
-    where
-        C: Cavity,
-        L: ContactLaw,
-        M: Mount,
-        D: Detector,
-    {
-        let model = &engine.state.model;
+    /// The setup of `state` under steps of `time_step` (s).
+    pub(crate) fn new<C: Cavity, L: ContactLaw, M: Mount>(
+        state: &State<C, L, M>,
+        time_step: f64,
+    ) -> Self {
+        let model = &state.model;
         let mut cavities = Digest::default();
         let mut mount = Digest::default();
         cavities.word(model.compartments.len() as u64);
-        mount.word(engine.state.mount.degrees() as u64);
-        for response in engine.state.container_responses() {
+        mount.word(state.mount.degrees() as u64);
+        for response in state.container_responses() {
             mount.numbers(&response.to_cols_array());
         }
         for compartment in &model.compartments {
             add_cavity(&mut cavities, &compartment.cavity);
         }
         if model.compartments.len() > 1 {
-            cavities.words(&engine.state.particles.id);
+            cavities.words(&state.particles.id);
         }
         Self {
             time_step,
-            gravity: engine.state.gravity,
-            kinds: of_kinds(&engine.state.particles.kinds),
+            gravity: state.gravity,
+            kinds: of_kinds(&state.particles.kinds),
             cavities,
-            law: of_law(
-                &model.law,
-                &model.coefficients,
-                &engine.state.particles.kinds,
-            ),
+            law: of_law(&model.law, &model.coefficients, &state.particles.kinds),
             mount,
         }
     }
