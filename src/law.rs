@@ -5,6 +5,8 @@
 //! the contact dynamics solver works out impulses, once a step. Both are a [`ContactLaw`], which is all
 //! that a [`Damper`](crate::Damper) asks for.
 
+pub(crate) use crate::numbers::{at_least, at_most};
+
 use crate::contact::Bodies;
 use crate::error::ValueError;
 use crate::material::MaterialId;
@@ -39,19 +41,6 @@ pub use kind::{ContactMemory, Forces, Impulses, LawKind};
 pub use normal::NormalHistory;
 pub use restitution::{RestitutionCoefficients, RestitutionImpulse};
 pub use solver_parameters::{SolverParameters, SweepOrder};
-
-/// The greater of two numbers, `least` if either is not one. One instruction where `f64::max` takes
-/// five.
-#[inline(always)]
-pub(crate) const fn at_least(value: f64, least: f64) -> f64 {
-    if value > least { value } else { least }
-}
-
-/// The lesser of two numbers, `most` if either is not one.
-#[inline(always)]
-pub(crate) const fn at_most(value: f64, most: f64) -> f64 {
-    if value < most { value } else { most }
-}
 
 /// Why a law refused a pair of bodies.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]

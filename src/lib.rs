@@ -120,6 +120,7 @@ pub mod integrator;
 pub mod law;
 mod material;
 pub mod mount;
+mod numbers;
 mod observer;
 mod parallel;
 mod particle;

@@ -4,6 +4,8 @@
 
 #[path = "physics/coarse_law.rs"]
 mod coarse_law;
+#[path = "physics/failures.rs"]
+mod failures;
 #[path = "physics/filling.rs"]
 mod filling;
 #[path = "physics/impulses.rs"]

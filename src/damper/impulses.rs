@@ -107,6 +107,10 @@ impl<S: Space> ImpulseSolver<S> {
             + size_of::<SolverBody<S>>() * self.bodies.capacity()
             + size_of::<ContactConstraint<S>>() * self.constraints.capacity()
             + size_of::<ConstraintInfo>() * self.infos.capacity()
+            + size_of::<RollingConstraint<S>>() * self.rolling.capacity()
+            + size_of::<u16>() * self.contact_counts.capacity()
+            + size_of::<u32>() * self.coupled.capacity()
+            + size_of::<SolverBody<S>>() * self.before_sweep.0.capacity()
     }
 }
 

@@ -8,7 +8,7 @@ use crate::material::Interaction;
 
 /// Slip velocity per unit tangential impulse between solid spheres, times m*: a sphere's centre
 /// yields by 1/m, its surface by r^2/(2/5 m r^2) more.
-pub(super) const SLIP_MOBILITY: f64 = 3.5;
+pub(super) const SLIP_INVERSE_MASS: f64 = 3.5;
 
 /// The part of a slip (or of a relative spin) that friction may take away in one step. One half
 /// keeps every integrator stable and leaves room for several contacts on one particle.
@@ -79,7 +79,7 @@ impl Friction {
 
     /// Prepares for two bodies that meet with `interaction`.
     pub(super) fn coefficients(self, bodies: &Bodies, interaction: &Interaction) -> Grip {
-        let stop = SLIP_MOBILITY / (PART_PER_STEP * bodies.effective_mass());
+        let stop = SLIP_INVERSE_MASS / (PART_PER_STEP * bodies.effective_mass());
         Grip {
             friction: interaction.friction,
             stop: if self.stops { stop } else { 0.0 },
@@ -204,7 +204,7 @@ mod tests {
         let (dt, slip) = (1e-5, 1e-3);
         let force = law.force(&grip(law), &sliding(slip * DVec3::X, dt), 10.0);
         assert_relative_eq!(
-            -force.x * dt * SLIP_MOBILITY / 2e-4,
+            -force.x * dt * SLIP_INVERSE_MASS / 2e-4,
             0.5 * slip,
             max_relative = 1e-14
         );

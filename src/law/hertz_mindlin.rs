@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::friction::{PART_PER_STEP, Rolling, SLIP_MOBILITY, share};
+use super::friction::{PART_PER_STEP, Rolling, SLIP_INVERSE_MASS, share};
 use super::normal::{Normal, NormalCoefficients, NormalForce, strict_law};
 use super::turn::turned;
 use super::{ContactLaw, ForceLaw, Forces, LawError, at_least, at_most};
@@ -139,16 +139,16 @@ impl ContactLaw for HertzMindlin {
         let [first, second] = self.normal.materials(bodies)?;
         let interaction = self.normal.interaction(bodies)?;
         let shear = 8.0 * first.effective_shear_modulus(second) * bodies.effective_radius().sqrt();
-        let mobility = SLIP_MOBILITY / bodies.effective_mass();
+        let inverse_mass = SLIP_INVERSE_MASS / bodies.effective_mass();
 
         let deepest = self.normal.reference(bodies)?.overlap();
-        let frequency = (shear * deepest.sqrt() * mobility).sqrt();
+        let frequency = (shear * deepest.sqrt() * inverse_mass).sqrt();
         let (normal, longest) = self.normal.coefficients(bodies, frequency)?;
         Ok(Coefficients {
             normal,
             shear,
             friction: interaction.friction,
-            stop: PART_PER_STEP / mobility,
+            stop: PART_PER_STEP / inverse_mass,
             rolling: Rolling::new(bodies, &interaction),
             longest: longest.min(GREATEST_TURN / frequency),
         })

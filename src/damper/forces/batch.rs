@@ -15,7 +15,8 @@ use crate::damper::state::{
     Space, StateView, StepTime, Volume, force_and_torques, levers, normal_and_overlap,
     surface_velocity,
 };
-use crate::law::{ContactLaw, ContactMemory, ForceLaw, at_least};
+use crate::law::{ContactLaw, ContactMemory, ForceLaw};
+use crate::numbers::at_least;
 
 /// What the contacts of a batch are between.
 pub(super) trait ContactKind {

@@ -6,7 +6,7 @@
 use super::SolverBody;
 use crate::contact::ContactForce;
 use crate::damper::state::Space;
-use crate::law::at_least;
+use crate::numbers::at_least;
 
 /// m r^2/I of a solid sphere, whose moment of inertia is I = 2/5 m r^2.
 pub(super) const TURNING: f64 = 2.5;

@@ -6,8 +6,9 @@ use super::prepare::ConstraintInfo;
 use super::{ImpulseSolver, SolverStep};
 use crate::cavity::Cavity;
 use crate::damper::state::{Space, State};
-use crate::law::{ContactLaw, at_least, at_most};
+use crate::law::ContactLaw;
 use crate::mount::Mount;
+use crate::numbers::{at_least, at_most};
 
 impl<S: Space> ImpulseSolver<S> {
     /// Sets the accelerations that lead to the velocities after the impulses. Returns how the kinetic energy

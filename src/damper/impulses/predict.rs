@@ -3,8 +3,9 @@
 use super::{ImpulseSolver, SolverBody, SolverStep};
 use crate::cavity::Cavity;
 use crate::damper::state::{Space, State};
-use crate::law::{ContactLaw, at_least};
+use crate::law::ContactLaw;
 use crate::mount::Mount;
+use crate::numbers::at_least;
 use crate::step_error::StepError;
 
 impl<S: Space> ImpulseSolver<S> {

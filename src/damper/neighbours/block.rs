@@ -1,8 +1,13 @@
 //! Blocks: runs of particles whose contacts are found and evaluated together.
 //!
-//! Blocks depend on the bed alone, never on how many threads there are, and so does the order in
-//! which forces are summed: the contacts within a block, those of its particles with later blocks,
-//! its walls, and at last what earlier blocks send over.
+//! A sum of floating-point numbers depends on the order of its terms, and results may not depend on how many
+//! threads there are. So blocks depend on the bed alone, and the order in which the forces on a particle are
+//! summed on the blocks: the contacts within a block; those of its particles with later blocks, from which
+//! the later ones get halo forces; its walls; and at last, in the order of the blocks, the halo forces that
+//! earlier ones sent. Whichever thread evaluates a block, and when, the sums are the same bits; and no two
+//! threads write to one particle. It is the spatial decomposition with ghost particles of large molecular
+//! dynamics (S. Plimpton, J. Comput. Phys. 117 (1995) 1-19, doi 10.1006/jcph.1995.1039) with blocks where
+//! that has processors.
 
 use std::ops::Range;
 

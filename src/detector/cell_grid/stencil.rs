@@ -1,4 +1,13 @@
-//! Which cells are searched around a centre.
+//! Which cells are searched around a centre: the stencil, made from the geometry of the grid.
+//!
+//! The paper searches the cells within a diameter but for the nearest, which is right for cells about as long
+//! as a radius. Here the stencil follows from the contact distance and the edges of a cell, so that a grid of
+//! any fineness and shape sees every pair:
+//! cells k apart along an axis hold centres that are more than (|k| - 1) edges apart, and a cell is searched if
+//! the length of these least distances along the axes is below the reach. Only half of them are taken, those
+//! after the own cell in the order of cells, since the other half sees the pair from its side. Cells that follow
+//! one another in a row are bits of a word, which is laid over the bits of the occupied cells: up to 64 cells
+//! are searched at a time, and empty ones cost nothing.
 
 use super::lattice::Lattice;
 use crate::detector::Bed;

@@ -5,7 +5,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::Space;
 use crate::damper::state::vectors::scale;
-use crate::law::{at_least, at_most};
+use crate::numbers::{at_least, at_most};
 
 /// The plane z = 0. A tangent is the component along the normal turned by a quarter.
 #[derive(Debug, Clone, Copy, Default)]
