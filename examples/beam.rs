@@ -16,7 +16,7 @@ use std::error::Error;
 use chart::{Chart, Line};
 use particle_damper::glam::DVec3;
 use particle_damper::{
-    Damper, Filling, Material, Motion, Mount, Particle, RestitutionImpulse, Slot,
+    Damper, Filling, Load, Material, Motion, Mount, Particle, RestitutionImpulse, Slot,
 };
 use plotters::prelude::SeriesLabelPosition;
 
@@ -75,8 +75,8 @@ impl Mount for Beam {
         Motion::at(DVec3::Y * self.at_tip(q), DVec3::Y * self.at_tip(v))
     }
 
-    fn accelerate(&self, _time: f64, q: &[f64], v: &[f64], loads: &[DVec3], a: &mut [f64]) {
-        let force: f64 = loads.iter().map(|load| load.y).sum();
+    fn accelerate(&self, _time: f64, q: &[f64], v: &[f64], loads: &[Load], a: &mut [f64]) {
+        let force: f64 = loads.iter().map(|load| load.force.y).sum();
         for (n, omega) in self.omega.iter().enumerate() {
             let spring = omega * omega * q[n] + 2.0 * self.damping * omega * v[n];
             a[n] = self.tip[n] * force - spring;

@@ -9,7 +9,7 @@ use crate::cavity::{Cavity, clearance};
 use crate::detector::{Detector, LinkedCells, Skin};
 use crate::integrator::{Integrator, VelocityVerlet};
 use crate::law::ContactLaw;
-use crate::mount::{Driven, Motion, Mount};
+use crate::mount::{Driven, Load, Motion, Mount};
 use crate::observer::{Observable, Observer};
 use crate::particle::Particle;
 use crate::step_error::StepError;
@@ -43,6 +43,13 @@ pub struct Reaction {
     /// Impulse on the container over the step, in N s: exactly the momentum that the particles lost,
     /// but for gravity.
     pub impulse: DVec3,
+    /// Torque on the container about its origin at the end of the step, in N m; of an impulse law, that of
+    /// the forces that were held, where they act in the midst of the step.
+    pub torque: DVec3,
+    /// Angular impulse on the container about where its origin is at the end of the step, in N m s: exactly
+    /// the angular momentum about that point that the particles lost, but for gravity
+    /// (to the order of the integrator, if it is not [`VelocityVerlet`]).
+    pub angular_impulse: DVec3,
 }
 
 /// A particle damper: particles in the cavity of a container that moves with its mount.
@@ -117,10 +124,11 @@ where
 
     /// Starts the sums of impulses on the containers afresh.
     fn reset_impulses(&mut self) {
-        let degrees = self.engine.state.mount.degrees();
-        let state = &mut self.engine.state.mount_coordinates;
-        state.position[degrees..].fill(0.0);
-        state.velocity[degrees..].fill(0.0);
+        let state = &mut self.engine.state;
+        let compartments = state.model.compartments.iter();
+        let origins = compartments.map(|compartment| compartment.motion.position);
+        let degrees = state.mount.degrees();
+        state.mount_coordinates.reset_impulses(degrees, origins);
     }
 
     fn advance<O: Observer>(&mut self, dt: f64, observer: &mut O) -> Result<(), StepError> {
@@ -198,7 +206,7 @@ where
         self.engine.rates()
     }
 
-    /// Position and velocity of the container of a cavity.
+    /// How the container of a cavity moves.
     #[must_use]
     pub fn container(&self, cavity: usize) -> Option<Motion> {
         self.engine.container(cavity)
@@ -207,16 +215,17 @@ where
     /// What the particles of a cavity did to its container over the last step.
     #[must_use]
     pub fn reaction(&self, cavity: usize) -> Option<Reaction> {
-        let first = self.engine.state.mount.degrees() + 3 * cavity;
-        let impulse = self
-            .engine
-            .state
-            .mount_coordinates
-            .velocity
-            .get(first..first + 3)?;
+        let state = &self.engine.state;
+        let Load { force, torque } = *state.loads.get(cavity)?;
+        let origin = state.model.compartments[cavity].motion.position;
+        let degrees = state.mount.degrees();
+        let sums = state.mount_coordinates.impulses(degrees, cavity, origin);
+        let [impulse, angular_impulse] = sums?;
         Some(Reaction {
-            force: *self.engine.state.loads.get(cavity)?,
-            impulse: DVec3::from_slice(impulse),
+            force,
+            impulse,
+            torque,
+            angular_impulse,
         })
     }
 
@@ -252,7 +261,7 @@ where
             .map(|(compartment, container)| {
                 let position = |index| self.engine.state.particles.position.get(index);
                 let outside = |index: &usize| {
-                    clearance(&compartment.cavity, position(*index) - container.position) < 0.0
+                    clearance(&compartment.cavity, container.to_local(position(*index))) < 0.0
                 };
                 compartment.indices.clone().filter(outside).count()
             })
@@ -284,6 +293,17 @@ where
     pub fn momentum(&self) -> DVec3 {
         self.particles()
             .map(|particle| particle.velocity * particle.mass)
+            .sum()
+    }
+
+    /// Angular momentum of the particles about a `point` of the fixed frame (m), in kg m^2/s, spin included.
+    #[must_use]
+    pub fn angular_momentum(&self, point: DVec3) -> DVec3 {
+        self.particles()
+            .map(|particle| {
+                let momentum = particle.velocity * particle.mass;
+                (particle.position - point).cross(momentum) + particle.spin * particle.inertia()
+            })
             .sum()
     }
 }

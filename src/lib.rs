@@ -126,6 +126,7 @@ mod parallel;
 mod particle;
 mod random;
 pub mod response;
+mod rotation;
 pub mod statistics;
 mod step_error;
 
@@ -153,7 +154,9 @@ pub use law::{
     RestitutionImpulse, SolverParameters, SweepOrder, TangentialSpring,
 };
 pub use material::{Interaction, Material, MaterialId, Materials};
-pub use mount::{Driven, Motion, Mount, MountEnergy, Prescribed, Shaker, SingleDof};
+pub use mount::{
+    Driven, Load, Motion, Mount, MountEnergy, Prescribed, RigidBody, Shaker, SingleDof,
+};
 pub use observer::{
     Account, BedRegime, ComplexPower, ContactEvent, Energies, EnergyLedger, EventLog, Extremes,
     Harmonics, LoggedContact, Losses, Observer, Phasor, StepReport, WallRecord, WallRecorder,

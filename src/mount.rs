@@ -1,34 +1,22 @@
 //! Mounts: what the container is fixed to, and how it moves.
 
-use glam::{DMat3, DVec3};
-
 use crate::excitation::Jump;
 
 mod driven;
+mod load;
+mod mobility;
+mod motion;
+mod rigid_body;
 mod shaker;
 mod single_dof;
 
 pub use driven::{Driven, Prescribed};
+pub use load::Load;
+pub(crate) use mobility::{Mobilities, Mobility};
+pub use motion::Motion;
+pub use rigid_body::RigidBody;
 pub use shaker::Shaker;
 pub use single_dof::SingleDof;
-
-/// Position and velocity of a container (translation only), fixed frame.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Motion {
-    /// Position of the container's origin in m.
-    pub position: DVec3,
-    /// Velocity of the container in m/s.
-    pub velocity: DVec3,
-}
-
-impl Motion {
-    /// A container at `position` (m) that moves with `velocity` (m/s).
-    #[must_use]
-    pub const fn at(position: DVec3, velocity: DVec3) -> Self {
-        Self { position, velocity }
-    }
-}
 
 /// Energy of a mount at an instant, and the powers that change it, the particles' apart.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -69,26 +57,31 @@ impl MountEnergy {
 /// with the particles, or a prescribed motion (no coordinates).
 ///
 /// # Using
-/// [`SingleDof`] is the oscillator of the paper's Eq. (1). [`Driven`] is moved by a host program,
-/// [`Shaker`] by a signal along an axis, [`Prescribed`] by any function of time.
+/// [`SingleDof`] is the oscillator of the paper's Eq. (1), [`RigidBody`] moves and turns freely. [`Driven`]
+/// is moved by a host program, [`Shaker`] by a signal along an axis, [`Prescribed`] by any function of time.
 ///
 /// # Implementing
 /// 1. [`degrees`](Self::degrees) coordinates, in units of the mount's choice; slices passed in have
 ///    that length. [`start`](Self::start) sets their initial values.
-/// 2. [`motion`](Self::motion) of container `cavity` is a function of time and coordinates. Containers
-///    translate; they do not turn.
-/// 3. [`accelerate`](Self::accelerate) solves the mount's equations of motion under `loads`, the
-///    forces (N) of the particles on each container. It is linear in the loads: from that follows what an
+/// 2. [`motion`](Self::motion) of container `cavity` is a function of time and coordinates: position and
+///    orientation of those alone, velocity and angular velocity linear in the rates.
+/// 3. [`accelerate`](Self::accelerate) solves the mount's equations of motion under `loads`, force (N) and
+///    torque about its origin (N m) of the particles on each container. A coordinate q feels
+///    `force . dv/dq' + torque . dw/dq'`, where v and w are velocity and angular velocity of the container:
+///    one that turns it feels the torque. It is linear in the loads: from that follows what an
 ///    impulse on a container does. A mount with coordinates that no load moves is refused.
 /// 4. [`highest_frequency`](Self::highest_frequency) and [`shortest_feature`](Self::shortest_feature)
 ///    say what steps the mount bears.
 /// 5. [`energy`](Self::energy) is for observers. A mount without coordinates keeps the default: an
 ///    [`EnergyLedger`](crate::EnergyLedger) counts the work of moving its containers by itself.
+/// 6. An angle in the plane is a coordinate like any other. Large rotations in space have no three
+///    coordinates that serve everywhere; [`rebase`](Self::rebase) lets a mount begin each step with
+///    others, as [`RigidBody`] does.
 ///
 /// Two equal masses on a line, coupled by a spring, with a container on each:
 /// ```
 /// use glam::DVec3;
-/// use particle_damper::mount::{Motion, Mount};
+/// use particle_damper::mount::{Load, Motion, Mount};
 ///
 /// struct Pair {
 ///     mass: f64,
@@ -102,10 +95,10 @@ impl MountEnergy {
 ///     fn motion(&self, _time: f64, x: &[f64], v: &[f64], cavity: usize) -> Motion {
 ///         Motion::at(DVec3::X * x[cavity], DVec3::X * v[cavity])
 ///     }
-///     fn accelerate(&self, _time: f64, x: &[f64], _v: &[f64], loads: &[DVec3], a: &mut [f64]) {
+///     fn accelerate(&self, _time: f64, x: &[f64], _v: &[f64], loads: &[Load], a: &mut [f64]) {
 ///         let spring = self.stiffness * (x[1] - x[0]);
-///         a[0] = (loads[0].x + spring) / self.mass;
-///         a[1] = (loads[1].x - spring) / self.mass;
+///         a[0] = (loads[0].force.x + spring) / self.mass;
+///         a[1] = (loads[1].force.x - spring) / self.mass;
 ///     }
 ///     fn highest_frequency(&self) -> f64 {
 ///         (2.0 * self.stiffness / self.mass).sqrt() / std::f64::consts::TAU
@@ -124,17 +117,21 @@ pub trait Mount {
     /// The motion of the container of a cavity.
     fn motion(&self, time: f64, coordinates: &[f64], velocities: &[f64], cavity: usize) -> Motion;
 
-    /// Sets `accelerations` from the mount's equations of motion under `loads` (N, one force per
-    /// cavity, on the container).
+    /// Sets `accelerations` from the mount's equations of motion under `loads`, one per cavity, on the
+    /// container.
     fn accelerate(
         &self,
         _time: f64,
         _coordinates: &[f64],
         _velocities: &[f64],
-        _loads: &[DVec3],
+        _loads: &[Load],
         _accelerations: &mut [f64],
     ) {
     }
+
+    /// Called at the end of each step: may describe the same motion by other coordinates and rates. The
+    /// accelerations stay those of the coordinates before. Does nothing unless set.
+    fn rebase(&self, _coordinates: &mut [f64], _velocities: &mut [f64]) {}
 
     /// Energy and powers at an instant; zero unless said otherwise.
     fn energy(&self, _time: f64, _coordinates: &[f64], _velocities: &[f64]) -> MountEnergy {
@@ -165,43 +162,6 @@ pub trait Mount {
     fn resume(&mut self, _motions: &[Motion]) {}
 }
 
-/// Velocity of the second of two containers per unit impulse on the first, 1/kg, row by row; none if the
-/// mount has no coordinates. From [`Mount::accelerate`], which is linear in the loads.
-pub(crate) fn responses<M: Mount>(
-    mount: &M,
-    time: f64,
-    coordinates: &[f64],
-    velocities: &[f64],
-    cavities: usize,
-) -> Vec<DMat3> {
-    let degrees = mount.degrees();
-    if degrees == 0 {
-        return Vec::new();
-    }
-    let velocities_under = |loads: &[DVec3]| -> Vec<DVec3> {
-        let mut rates = vec![0.0; degrees];
-        mount.accelerate(time, coordinates, velocities, loads, &mut rates);
-        for (rate, velocity) in rates.iter_mut().zip(velocities) {
-            *rate += velocity;
-        }
-        let motions = (0..cavities).map(|cavity| mount.motion(time, coordinates, &rates, cavity));
-        motions.map(|motion| motion.velocity).collect()
-    };
-    let mut loads = vec![DVec3::ZERO; cavities];
-    let free = velocities_under(&loads);
-    let mut responses = vec![DMat3::ZERO; cavities * cavities];
-    for struck in 0..cavities {
-        for axis in 0..3 {
-            loads[struck] = DVec3::AXES[axis];
-            for (cavity, velocity) in velocities_under(&loads).into_iter().enumerate() {
-                *responses[struck * cavities + cavity].col_mut(axis) = velocity - free[cavity];
-            }
-            loads[struck] = DVec3::ZERO;
-        }
-    }
-    responses
-}
-
 impl<M: Mount + ?Sized> Mount for &mut M {
     fn degrees(&self) -> usize {
         (**self).degrees()
@@ -220,10 +180,14 @@ impl<M: Mount + ?Sized> Mount for &mut M {
         time: f64,
         coordinates: &[f64],
         velocities: &[f64],
-        loads: &[DVec3],
+        loads: &[Load],
         accelerations: &mut [f64],
     ) {
         (**self).accelerate(time, coordinates, velocities, loads, accelerations);
+    }
+
+    fn rebase(&self, coordinates: &mut [f64], velocities: &mut [f64]) {
+        (**self).rebase(coordinates, velocities);
     }
 
     fn energy(&self, time: f64, coordinates: &[f64], velocities: &[f64]) -> MountEnergy {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use crate::detector::DetectorError;
 use crate::error::ValueError;
@@ -27,6 +27,13 @@ pub enum Cause {
         velocity: DVec3,
         /// What it has moved by in the step, m.
         way: f64,
+    },
+    /// The container turns too fast or by leaps.
+    Rotation {
+        /// Its angular velocity in rad/s.
+        angular_velocity: DVec3,
+        /// What it has turned by in the step, rad.
+        angle: f64,
     },
     /// A particle moves far faster than the contact law is set up for.
     Speed {
@@ -58,6 +65,13 @@ impl fmt::Display for Cause {
             Self::Container { velocity, way } => write!(
                 f,
                 "the container moves at {velocity} m/s, by {way} m in the step; check what drives it, or shorten the interval"
+            ),
+            Self::Rotation {
+                angular_velocity,
+                angle,
+            } => write!(
+                f,
+                "the container turns at {angular_velocity} rad/s, by {angle} rad in the step; check what drives it, or shorten the interval"
             ),
             Self::Speed {
                 particle,
@@ -145,6 +159,43 @@ pub enum StepError {
         velocity: DVec3,
         /// Way over time in the step, m/s.
         rate: DVec3,
+    },
+    /// The angular velocity of a prescribed motion is not the rate of its orientation.
+    #[error(
+        "the angular velocity of the container of cavity {cavity} is not the rate of its orientation: {angular_velocity} against {rate} rad/s"
+    )]
+    TurnsOtherwise {
+        /// Number of the cavity.
+        cavity: usize,
+        /// Its angular velocity in rad/s, on the mean of the step.
+        angular_velocity: DVec3,
+        /// Turn over time in the step, rad/s.
+        rate: DVec3,
+    },
+    /// A container's orientation is no rotation (a unit quaternion to within a thousandth), or its angular
+    /// velocity is not finite.
+    #[error(
+        "the container of cavity {cavity} stands at {orientation} and turns with {angular_velocity} rad/s: the one has to be a unit quaternion, the other finite"
+    )]
+    Orientation {
+        /// Number of the cavity.
+        cavity: usize,
+        /// Its orientation.
+        orientation: DQuat,
+        /// Its angular velocity in rad/s.
+        angular_velocity: DVec3,
+    },
+    /// The container of a planar cavity turns about another axis than z.
+    #[error(
+        "the container of cavity {cavity} is turned out of the plane z = 0 of a planar cavity: {orientation}, {angular_velocity} rad/s"
+    )]
+    TurnsOutOfPlane {
+        /// Number of the cavity.
+        cavity: usize,
+        /// Its orientation.
+        orientation: DQuat,
+        /// Its angular velocity in rad/s.
+        angular_velocity: DVec3,
     },
     /// The mount's coordinates are no longer finite.
     #[error("the mount runs away: coordinate {coordinate} is at {value} with a rate of {rate}")]

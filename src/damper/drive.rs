@@ -1,5 +1,6 @@
 //! Driving: a host program moves the container, and gets the reaction back.
 
+use super::state::checked;
 use super::{Damper, Reaction};
 use crate::cavity::Cavity;
 use crate::detector::Detector;
@@ -21,8 +22,8 @@ where
     I: Integrator,
 {
     /// Moves the container to `end` within `interval` (s), in as many steps as it takes to stay
-    /// within the time step, and returns what the particles did to it: the force at the end, and the
-    /// impulse over the interval.
+    /// within the time step, and returns what the particles did to it: force and torque at the end, impulse
+    /// and angular impulse over the interval.
     ///
     /// An interval that is a difference of two times carries their rounding. One that is off from a
     /// multiple of the time step by less than that (2e-9 s, of times up to 1e7 s, and a hundredth of the
@@ -48,13 +49,8 @@ where
     ) -> Result<Reaction, StepError> {
         Bound::Positive.check("interval (s)", interval)?;
         Bound::AtMost(MOST_STEPS * self.time_step).check("interval (s)", interval)?;
-        if !(end.position.is_finite() && end.velocity.is_finite()) {
-            return Err(StepError::Container {
-                cavity: 0,
-                position: end.position,
-                velocity: end.velocity,
-            });
-        }
+        let planar = self.engine.state.model.planar();
+        let end = checked(end, 0, planar)?;
         let cut = self.clock.cut(interval, self.time_step);
         let duration = cut.steps as f64 * cut.step;
         let course = Driven::between(self.container(0).unwrap_or_default(), end, duration);
@@ -78,7 +74,7 @@ where
     ///     .time_step(1e-4)
     ///     .start_time(3600.0)
     ///     .build()?;
-    /// let up = Motion { position: DVec3::Y * 1e-3, velocity: DVec3::Y };
+    /// let up = Motion::at(DVec3::Y * 1e-3, DVec3::Y);
     /// damper.drive_to(up, 3600.001)?; // ten steps
     /// assert!((damper.time() - 3600.001).abs() < 2e-9);
     /// # Ok::<(), Box<dyn std::error::Error>>(())

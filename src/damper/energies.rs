@@ -1,7 +1,5 @@
 //! Energies of a damper between steps.
 
-use glam::DVec3;
-
 use super::Damper;
 use super::engine::Engine;
 use super::neighbours::NeighbourList;
@@ -155,12 +153,14 @@ fn wall<C: Cavity, L: ForceLaw>(
     let grain = view.grain(index as usize);
     let point = view.wall_point(wall, grain.position);
     let compartment = view.compartment_of_wall(wall);
-    let (spins, levers) = ([grain.spin, DVec3::ZERO], [grain.radius, 0.0]);
-    let towards = grain.velocity - compartment.motion.velocity;
+    let spins = [grain.spin, compartment.motion.angular_velocity];
+    let levers = [grain.radius, 0.0];
+    let touch = || grain.position - point.normal * grain.radius;
+    let towards = compartment.relative(touch, grain.velocity);
     let velocity = surface_velocity::<Volume>(point.normal, towards, spins, levers);
     let mut contact = Contact::new(point.normal, grain.radius - point.distance, velocity);
     contact.spins = spins;
-    contact.wall_inverse_mass = compartment.inverse_mass_along(point.normal);
+    contact.wall_inverse_mass = compartment.inverse_mass_along(point.normal, touch);
     let species = view.species[index as usize];
     (*view.coefficients.wall(species), contact)
 }

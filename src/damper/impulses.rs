@@ -18,6 +18,7 @@ use constraint::{ContactConstraint, RollingConstraint};
 use container::{Container, Containers};
 use pairs::Lanes;
 use prepare::ConstraintInfo;
+use turning::TurningContainer;
 
 mod apply;
 mod constraint;
@@ -28,6 +29,7 @@ mod predict;
 mod prepare;
 mod report;
 mod sweep;
+mod turning;
 
 /// A particle while impulses are worked out.
 #[derive(Debug, Clone, Copy, Default)]
@@ -48,11 +50,18 @@ pub(crate) struct ImpulseSolver<S: Space> {
     bodies: Vec<SolverBody<S>>,
     containers: Containers<S>,
     /// Both as a simultaneous sweep found them.
-    before_sweep: (Vec<SolverBody<S>>, Vec<Container<S>>),
+    before_sweep: (
+        Vec<SolverBody<S>>,
+        Vec<Container<S>>,
+        Vec<TurningContainer<S>>,
+    ),
     /// Active contacts: pairs, then walls.
     constraints: Vec<ContactConstraint<S>>,
     /// Of each constraint, what sweeps do not need.
     infos: Vec<ConstraintInfo>,
+    /// Of each constraint at a wall, from the container's origin to the point of contact, m; empty if no
+    /// container turns.
+    arms: Vec<S::Vector>,
     /// What resists rolling in each; empty if nothing does.
     rolling: Vec<RollingConstraint<S>>,
     /// How many constraints are pairs.

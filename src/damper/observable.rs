@@ -3,11 +3,12 @@
 use glam::DVec3;
 
 use super::engine::Engine;
+use super::state::MountCoordinates;
 use crate::cavity::Cavity;
 use crate::contact::WallLoad;
 use crate::detector::Detector;
 use crate::law::{ContactLaw, LawKind};
-use crate::mount::{Motion, Mount, MountEnergy};
+use crate::mount::{Load, Motion, Mount, MountEnergy};
 use crate::observer::Observable;
 use crate::particle::Particle;
 
@@ -28,22 +29,20 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Observable for Engine<C, L
 
     fn container(&self, cavity: usize) -> Option<Motion> {
         (cavity < self.cavities()).then(|| {
-            self.state
-                .mount
-                .motion(self.state.time, self.coordinates(), self.rates(), cavity)
+            let (x, v) = (self.coordinates(), self.rates());
+            let motion = self.state.mount.motion(self.state.time, x, v, cavity);
+            motion.normalized().unwrap_or(motion)
         })
     }
 
-    fn load(&self, cavity: usize) -> Option<DVec3> {
+    fn load(&self, cavity: usize) -> Option<Load> {
         self.state.loads.get(cavity).copied()
     }
 
     fn impulse(&self, cavity: usize) -> Option<DVec3> {
-        let own = 3 * cavity..3 * cavity + 3;
-        let before = self.state.step_start.impulses.get(own.clone())?;
         let sums = &self.state.mount_coordinates.velocity[self.state.mount.degrees()..];
-        let now = sums.get(own)?;
-        Some(DVec3::from_slice(now) - DVec3::from_slice(before))
+        let before = MountCoordinates::impulse_among(&self.state.step_start.impulses, cavity)?;
+        Some(MountCoordinates::impulse_among(sums, cavity)? - before)
     }
 
     fn walls(&self, cavity: usize) -> u32 {

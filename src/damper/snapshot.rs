@@ -14,7 +14,7 @@ use crate::detector::Detector;
 use crate::digest::Digest;
 use crate::integrator::Integrator;
 use crate::law::{ContactLaw, ContactMemory, LawKind};
-use crate::mount::{Motion, Mount};
+use crate::mount::{Load, Motion, Mount};
 use crate::step_error::StepError;
 
 mod recording;
@@ -22,7 +22,7 @@ mod recording;
 pub use recording::{Recorded, Recording, ReplayError};
 
 /// Number of the layout of [`Snapshot`], which changes with it.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// The state of a damper whose contacts remember `Memory`: particles, contact memory, mount and time.
 /// A damper that is restored from it goes on to the same bits.
@@ -42,7 +42,7 @@ const VERSION: u32 = 1;
 ///     .particles([Particle::new(3e-3, 2e-4)?.at(DVec3::new(0.05, 0.01, 0.0))])
 ///     .build()?;
 /// let before = damper.snapshot();
-/// let up = |height: f64| Motion { position: DVec3::Y * height, velocity: DVec3::Y };
+/// let up = |height: f64| Motion::at(DVec3::Y * height, DVec3::Y);
 /// let first = damper.drive(up(1e-3), 2e-3)?;
 /// damper.restore(&before)?;
 /// assert_eq!(damper.drive(up(1e-3), 2e-3)?, first);
@@ -67,7 +67,7 @@ pub struct Snapshot<Memory> {
     mount: MountCoordinates,
     containers: Vec<Motion>,
     wall_loads: Vec<WallLoad>,
-    loads: Vec<DVec3>,
+    loads: Vec<Load>,
     memory: [Vec<ContactRecord<Memory>>; 2],
 }
 
@@ -179,7 +179,6 @@ impl<Memory> Snapshot<Memory> {
             &self.spin,
             &self.acceleration,
             &self.angular_acceleration,
-            &self.loads,
         ] {
             digest.vectors(column);
         }
@@ -187,10 +186,16 @@ impl<Memory> Snapshot<Memory> {
         for column in [&mount.position, &mount.velocity, &mount.acceleration] {
             digest.numbers(column);
         }
+        digest.vectors(&mount.origins);
         for container in &self.containers {
             digest.vectors(&[container.position, container.velocity]);
+            digest.numbers(&container.orientation.to_array());
+            digest.vector(container.angular_velocity);
         }
         for load in &self.wall_loads {
+            digest.vectors(&[load.force, load.torque]);
+        }
+        for load in &self.loads {
             digest.vectors(&[load.force, load.torque]);
         }
         for contact in self.memory.iter().flatten() {
@@ -242,6 +247,9 @@ impl<Memory> Snapshot<Memory> {
         }
         RestoreError::count("species", count, self.species.len())?;
         RestoreError::count("loads", cavities, self.loads.len())?;
+        RestoreError::count("containers", cavities, self.mount.origins.len())?;
+        let mut origins = self.mount.origins.iter();
+        RestoreError::sound("containers", origins.all(|origin| origin.is_finite()))?;
         let mount = &self.mount;
         for column in [&mount.position, &mount.velocity, &mount.acceleration] {
             RestoreError::count("mount coordinates", coordinates, column.len())?;
@@ -249,11 +257,13 @@ impl<Memory> Snapshot<Memory> {
             RestoreError::sound("mount coordinates", finite)?;
         }
         RestoreError::sound("clock", self.clock.is_sound())?;
-        let moving = |motion: &Motion| motion.position.is_finite() && motion.velocity.is_finite();
-        RestoreError::sound("containers", self.containers.iter().all(moving))?;
+        let mut motions = self.containers.iter();
+        let moving = |motion: &Motion| motion.is_finite() && motion.normalized().is_some();
+        RestoreError::sound("containers", motions.all(moving))?;
         let loaded = |load: &WallLoad| load.force.is_finite() && load.torque.is_finite();
         RestoreError::sound("wall loads", self.wall_loads.iter().all(loaded))?;
-        RestoreError::sound("loads", self.loads.iter().all(|load| load.is_finite()))?;
+        let loaded = |load: &Load| load.force.is_finite() && load.torque.is_finite();
+        RestoreError::sound("loads", self.loads.iter().all(loaded))?;
         self.check_numbers(engine)?;
         self.check_memory(count, engine.state.wall_loads.len())?;
         if self.digest(&engine.state.model.law) != self.digest {
@@ -376,7 +386,7 @@ where
             .iter_mut()
             .zip(&snapshot.containers)
         {
-            compartment.motion = *motion;
+            compartment.place(*motion);
         }
         engine.state.mount.resume(&snapshot.containers);
         self.clock = snapshot.clock;

@@ -9,6 +9,7 @@ use glam::DVec3;
 use crate::cavity::Cavity;
 use crate::contact::WallLoad;
 use crate::law::ContactLaw;
+use crate::mount::{Load, Mobilities};
 
 mod checks;
 mod clock;
@@ -29,6 +30,7 @@ mod view;
 pub(crate) use clock::Clock;
 pub(crate) use coefficients::Coefficients;
 pub(crate) use compartment::Compartment;
+pub(crate) use containers::checked;
 pub(crate) use diagnosis::StepStart;
 pub(crate) use geometry::{force_and_torques, levers, normal_and_overlap, surface_velocity};
 pub(crate) use model::Model;
@@ -53,8 +55,10 @@ pub(crate) struct State<C, L: ContactLaw, M> {
     pub(crate) previous: PreviousAccelerations,
     /// Loads of the particles on each wall, all cavities in turn.
     pub(crate) wall_loads: Vec<WallLoad>,
-    /// Forces of the particles on each container.
-    pub(crate) loads: Vec<DVec3>,
+    /// What the particles do to each container.
+    pub(crate) loads: Vec<Load>,
+    /// What impulses on the containers do.
+    pub(crate) mobilities: Mobilities,
     pub(crate) time: f64,
     /// Number of the last accepted step; it wraps.
     pub(crate) stamp: u32,

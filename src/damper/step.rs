@@ -33,6 +33,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         // Asks to evaluate forces, once or more.
         integrator.step(&mut SteppedSystem::new(self, observer, clock), dt)?;
         self.state.end_step();
+        self.state.rebase_mount();
         self.state.check_course()?;
         self.state.time = clock.advance(dt);
         observer.step(&StepReport::new(self.state.time, dt, self));
@@ -144,6 +145,7 @@ where
     where
         L: ForceLaw,
     {
+        self.engine.state.update_mobilities();
         Ok(())
     }
 

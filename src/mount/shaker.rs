@@ -51,10 +51,7 @@ impl<S: Signal> Mount for Shaker<S> {
     #[inline]
     fn motion(&self, time: f64, _x: &[f64], _v: &[f64], _cavity: usize) -> Motion {
         let [displacement, velocity] = self.displacement.at(time);
-        Motion {
-            position: self.axis * displacement,
-            velocity: self.axis * velocity,
-        }
+        Motion::at(self.axis * displacement, self.axis * velocity)
     }
 
     fn shortest_feature(&self) -> f64 {

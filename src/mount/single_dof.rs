@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::{Motion, Mount, MountEnergy};
+use super::{Load, Motion, Mount, MountEnergy};
 use crate::error::{Bound, ValueError};
 use crate::excitation::{Excitation, Jump};
 
@@ -135,9 +135,9 @@ impl<E: Excitation> Mount for SingleDof<E> {
     }
 
     #[inline]
-    fn accelerate(&self, time: f64, x: &[f64], v: &[f64], loads: &[DVec3], a: &mut [f64]) {
+    fn accelerate(&self, time: f64, x: &[f64], v: &[f64], loads: &[Load], a: &mut [f64]) {
         let driving = self.excitation.force(time, self.damping, self.stiffness);
-        let particles: f64 = loads.iter().map(|load| load.dot(self.axis)).sum();
+        let particles: f64 = loads.iter().map(|load| load.force.dot(self.axis)).sum();
         let spring = self.stiffness * x[0] + self.damping * v[0];
         a[0] = (driving + particles - spring) / self.mass;
     }

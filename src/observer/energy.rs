@@ -177,10 +177,12 @@ impl EnergyLedger {
         let (mut given, mut taken) = (0.0, 0.0);
         for (now, mean) in self.pace.particles.iter().zip(&self.mean.particles) {
             let impulse = now.mass * (2.0 * (now.velocity - mean.velocity) - fall);
-            let container = self.mean.containers[now.cavity as usize];
-            given += impulse.dot(container);
-            taken -= impulse.dot(mean.velocity - container);
-            taken -= now.inertia() * 2.0 * (now.spin - mean.spin).dot(mean.spin);
+            let container = &self.mean.containers[now.cavity as usize];
+            let carried = container.velocity_at(mean.position);
+            let turn = now.inertia() * 2.0 * (now.spin - mean.spin);
+            given += impulse.dot(carried) + turn.dot(container.angular_velocity);
+            taken -= impulse.dot(mean.velocity - carried);
+            taken -= turn.dot(mean.spin - container.angular_velocity);
         }
         [given, taken]
     }

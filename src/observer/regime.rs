@@ -108,7 +108,7 @@ impl Observer for BedRegime {
                 .container(particle.cavity as usize)
                 .unwrap_or_default();
             mass += particle.mass;
-            place += particle.mass * (particle.position - origin.position);
+            place += particle.mass * origin.to_local(particle.position);
             momentum += particle.mass * particle.velocity;
             energy += 0.5 * particle.mass * particle.velocity.length_squared();
         }

@@ -3,7 +3,7 @@ use std::fmt;
 use glam::DVec3;
 
 use crate::contact::WallLoad;
-use crate::mount::{Motion, MountEnergy};
+use crate::mount::{Load, Motion, MountEnergy};
 use crate::particle::Particle;
 
 /// What a damper shows of itself, whatever it is made of.
@@ -12,7 +12,7 @@ pub(crate) trait Observable {
     fn particle(&self, number: usize) -> Option<Particle>;
     fn cavities(&self) -> usize;
     fn container(&self, cavity: usize) -> Option<Motion>;
-    fn load(&self, cavity: usize) -> Option<DVec3>;
+    fn load(&self, cavity: usize) -> Option<Load>;
     fn impulse(&self, cavity: usize) -> Option<DVec3>;
     fn walls(&self, cavity: usize) -> u32;
     fn wall_load(&self, cavity: usize, wall: u32) -> Option<WallLoad>;
@@ -86,16 +86,16 @@ impl<'a> StepReport<'a> {
         self.view.cavities()
     }
 
-    /// Position and velocity of the container of a cavity.
+    /// How the container of a cavity moves.
     #[must_use]
     pub fn container(&self, cavity: usize) -> Option<Motion> {
         self.view.container(cavity)
     }
 
-    /// Force in N of the particles on a container, at the end of the step or, of an impulse law,
+    /// Force and torque of the particles on a container, at the end of the step or, of an impulse law,
     /// over the step.
     #[must_use]
-    pub fn load(&self, cavity: usize) -> Option<DVec3> {
+    pub fn load(&self, cavity: usize) -> Option<Load> {
         self.view.load(cavity)
     }
 

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use particle_damper::cavity::{Cavity, WallPoint};
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::integrator::{Columns, Integrator, Stage, System};
-use particle_damper::mount::{Motion, Mount};
+use particle_damper::mount::{Load, Motion, Mount};
 use particle_damper::{
     Bed, Bodies, Contact, ContactEvent, ContactForce, ContactLaw, Detector, ForceLaw, Forces,
     LawError, Observer, Pairs, Partner, StepError,
@@ -164,10 +164,10 @@ impl Mount for TwoMasses {
         Motion::at(place + DVec3::X * x[cavity], DVec3::X * v[cavity])
     }
 
-    fn accelerate(&self, _time: f64, x: &[f64], _v: &[f64], loads: &[DVec3], a: &mut [f64]) {
+    fn accelerate(&self, _time: f64, x: &[f64], _v: &[f64], loads: &[Load], a: &mut [f64]) {
         let spring = self.stiffness[1] * (x[1] - x[0]);
-        a[0] = (loads[0].x + spring - self.stiffness[0] * x[0]) / self.masses[0];
-        a[1] = (loads[1].x - spring) / self.masses[1];
+        a[0] = (loads[0].force.x + spring - self.stiffness[0] * x[0]) / self.masses[0];
+        a[1] = (loads[1].force.x - spring) / self.masses[1];
     }
 }
 

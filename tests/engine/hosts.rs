@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 use glam::{DVec3, dvec3};
 use particle_damper::{
     Bodies, Bound, Cause, Contact, ContactForce, ContactLaw, Cuboid, Damper, Driven, Filling,
-    ForceLaw, Forces, HertzMindlin, HertzTsuji, ImpulseLaw, Impulses, LawError, LinkedCells,
+    ForceLaw, Forces, HertzMindlin, HertzTsuji, ImpulseLaw, Impulses, LawError, LinkedCells, Load,
     Material, Motion, Mount, Observer, Particle, Partner, RestitutionImpulse, SingleDof, Skin,
     Slot, StepError, StepReport,
 };
@@ -254,8 +254,12 @@ impl Mount for Broken {
         Motion::at(DVec3::Y * x[0], DVec3::Y * v[0])
     }
 
-    fn accelerate(&self, time: f64, _: &[f64], _: &[f64], loads: &[DVec3], a: &mut [f64]) {
-        a[0] = if time > 1e-3 { f64::NAN } else { loads[0].y };
+    fn accelerate(&self, time: f64, _: &[f64], _: &[f64], loads: &[Load], a: &mut [f64]) {
+        a[0] = if time > 1e-3 {
+            f64::NAN
+        } else {
+            loads[0].force.y
+        };
     }
 }
 

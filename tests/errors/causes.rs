@@ -2,7 +2,7 @@
 
 use particle_damper::cavity::Slot;
 use particle_damper::glam::{DVec3, dvec3};
-use particle_damper::mount::{Motion, Mount, Prescribed};
+use particle_damper::mount::{Load, Motion, Mount, Prescribed};
 use particle_damper::{
     Cause, ContactLaw, Cuboid, Damper, HertzTsuji, Material, Particle, RestitutionImpulse,
     StepError,
@@ -42,8 +42,8 @@ impl Mount for Fluttering {
     fn motion(&self, _time: f64, x: &[f64], v: &[f64], _cavity: usize) -> Motion {
         Motion::at(DVec3::Y * x[0], DVec3::Y * v[0])
     }
-    fn accelerate(&self, _time: f64, x: &[f64], v: &[f64], loads: &[DVec3], a: &mut [f64]) {
-        a[0] = 200.0 * v[0] - 1e5 * x[0] + 1e-3 * loads[0].y;
+    fn accelerate(&self, _time: f64, x: &[f64], v: &[f64], loads: &[Load], a: &mut [f64]) {
+        a[0] = 200.0 * v[0] - 1e5 * x[0] + 1e-3 * loads[0].force.y;
     }
 }
 

@@ -1,6 +1,6 @@
 //! From a builder to a damper: whatever can be refused is.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::{BuildError, Builder};
 use crate::cavity::Cavity;
@@ -18,7 +18,7 @@ use crate::detector::Detector;
 use crate::error::{Bound, ValueError};
 use crate::integrator::{Integrator, Stage};
 use crate::law::{ContactLaw, ForceLaw, ImpulseLaw, LawKind, LawVisitor};
-use crate::mount::{self, Motion, Mount};
+use crate::mount::{Load, Mobilities, Mobility, Mount};
 use crate::particle::Particle;
 
 /// Candidates without a skin are listed up to this fraction of the smallest radius, so that they
@@ -51,7 +51,12 @@ where
         L::Kind::accept(CheckLaw(&self.law))?;
         let mount_coordinates = MountCoordinates::new(&self.mount, self.cavities.len());
         let smallest = particles.smallest_radius;
-        let compartments = self.compartments(smallest, &mount_coordinates);
+        let degrees = self.mount.degrees();
+        let own = &mount_coordinates;
+        let own = [own.own(degrees), own.own_rates(degrees)];
+        let count = self.cavities.len();
+        let mobilities = Mobilities::new(&self.mount, self.start_time, own, count);
+        let compartments = self.compartments(smallest, &mobilities);
         let yielding = compartments.iter().map(Compartment::greatest_inverse_mass);
         let wall = Body {
             mass: 1.0 / yielding.fold(0.0, f64::max),
@@ -78,7 +83,8 @@ where
                 gravity: self.gravity,
                 particles,
                 wall_loads: vec![WallLoad::default(); walls],
-                loads: vec![DVec3::ZERO; compartments.len()],
+                loads: vec![Load::default(); compartments.len()],
+                mobilities,
                 model: Model {
                     law: self.law,
                     coefficients,
@@ -228,12 +234,8 @@ where
     fn compartments(
         &mut self,
         smallest_radius: f64,
-        state: &MountCoordinates,
+        mobilities: &Mobilities,
     ) -> Vec<Compartment<C>> {
-        let count = self.cavities.len();
-        let degrees = self.mount.degrees();
-        let (x, v) = (&state.position[..degrees], &state.velocity[..degrees]);
-        let responses = mount::responses(&self.mount, self.start_time, x, v, count);
         let (mut index, mut wall) = (0, 0);
         let mut compartments = Vec::new();
         for (number, cavity) in std::mem::take(&mut self.cavities).into_iter().enumerate() {
@@ -246,17 +248,9 @@ where
             } else {
                 0.0
             };
-            compartments.push(Compartment {
-                cavity,
-                indices: index..end,
-                first_wall: wall,
-                motion: Motion::default(),
-                inverse_mass: responses
-                    .get(number * (count + 1))
-                    .copied()
-                    .unwrap_or(DMat3::ZERO),
-                margin,
-            });
+            let mut compartment = Compartment::new(cavity, index..end, wall, margin);
+            compartment.mobility = mobilities.own(number);
+            compartments.push(compartment);
             index = end;
             wall += walls;
         }
@@ -328,8 +322,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         self.state.place_containers(self.state.time)?;
         for compartment in &self.state.model.compartments {
             for index in compartment.indices.clone() {
-                let position =
-                    self.state.particles.position.get(index) + compartment.motion.position;
+                let position = compartment.to_fixed(self.state.particles.position.get(index));
                 self.state.particles.position.set(index, position);
             }
         }
@@ -342,20 +335,33 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
 
     /// Refuses a mount that loads cannot move, and one that leaves the plane of a planar cavity.
     fn check_mount(&self) -> Result<(), BuildError> {
-        let responses = self.state.container_responses();
-        if self.state.mount.degrees() > 0 && responses.iter().all(|own| *own == DMat3::ZERO) {
+        let mobilities = self.state.mobilities.all();
+        if self.state.mount.degrees() > 0 && mobilities.iter().all(|own| *own == Mobility::ZERO) {
             return Err(BuildError::ImmovableMount {
                 degrees: self.state.mount.degrees(),
             });
         }
         let cavities = self.state.model.compartments.len();
-        for (number, response) in responses.iter().enumerate() {
+        for (number, mobility) in mobilities.iter().enumerate() {
             if self.state.model.compartments[number % cavities]
                 .cavity
                 .is_planar()
             {
                 // A mount that leaves the plane shows it in how it yields.
-                in_plane("axis of the mount", response.z_axis + response.row(2))?;
+                let linear = mobility.linear;
+                in_plane("axis of the mount", linear.z_axis + linear.row(2))?;
+                let loads = [DVec3::X, DVec3::Y].map(|force| [force, DVec3::ZERO]);
+                for [force, torque] in loads.into_iter().chain([[DVec3::ZERO, DVec3::Z]]) {
+                    let [velocity, turning] = mobility.motion(force, torque);
+                    in_plane("axis of the mount", velocity)?;
+                    let DVec3 { x, y, .. } = turning;
+                    if x != 0.0 || y != 0.0 {
+                        return Err(BuildError::OutOfPlane {
+                            quantity: "axis about which the mount turns",
+                            value: turning,
+                        });
+                    }
+                }
             }
         }
         Ok(())
@@ -378,8 +384,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
                 let compartment = view.compartment_of_wall(wall);
                 return Err(BuildError::OutsideCavity {
                     particle: self.state.particles.id[index] as usize,
-                    position: self.state.particles.position.get(index)
-                        - compartment.motion.position,
+                    position: compartment.to_local(self.state.particles.position.get(index)),
                     wall: wall - compartment.first_wall,
                     overlap,
                     limit,

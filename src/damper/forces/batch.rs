@@ -187,11 +187,13 @@ impl<L: ForceLaw> Batch<L> {
             let point = view.wall_point(*wall, grain.position);
             let compartment = view.compartment_of_wall(*wall);
             self.towards.set(n, point.normal);
-            self.wall_inverse_mass[n] = compartment.inverse_mass_along(point.normal);
-            let velocity = grain.velocity - compartment.motion.velocity;
-            self.velocity.set(n, velocity);
+            // Where the sphere's surface would be: there the wall moves as it turns.
+            let touch = || grain.position - point.normal * grain.radius;
+            self.wall_inverse_mass[n] = compartment.inverse_mass_along(point.normal, touch);
+            self.velocity
+                .set(n, compartment.relative(touch, grain.velocity));
             self.spins[0].set(n, grain.spin);
-            self.spins[1].set(n, DVec3::ZERO);
+            self.spins[1].set(n, compartment.motion.angular_velocity);
             self.radii[0][n] = grain.radius;
             self.radii[1][n] = 0.0;
             self.overlap[n] = grain.radius - point.distance;

@@ -244,7 +244,8 @@ fn evaluate_walls<C: Cavity, L: ForceLaw, S: Space, const END: bool>(
     let only = view.coefficients.only_wall();
     batch.evaluate::<SphereWall, S, END>(view.law, only, kinds, view.step_time);
     if view.law.corrects_onset() {
-        let acceleration = |n: usize| view.acceleration.get(bodies[n][0] as usize);
+        let acceleration =
+            |n: usize| view.acceleration_at_wall(bodies[n][0] as usize, bodies[n][1]);
         batch.correct_onsets::<SphereWall, END>(view.law, only, view.step_time, acceleration);
     }
     if END {

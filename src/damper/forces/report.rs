@@ -57,7 +57,7 @@ pub(super) fn report_walls<C: Cavity, L: ForceLaw>(
     for (n, [index, wall]) in list.contacts.bodies()[run].iter().enumerate() {
         let (index, wall) = (*index as usize, *wall);
         let kind = view.coefficients.wall(view.species[index]);
-        let acceleration = view.acceleration.get(index);
+        let acceleration = view.acceleration_at_wall(index, wall);
         let (contact, force, memory) =
             batch.evaluate_contact::<SphereWall>(view.law, kind, n, view.step_time, acceleration);
         observer.contact(&ContactEvent {
@@ -68,7 +68,7 @@ pub(super) fn report_walls<C: Cavity, L: ForceLaw>(
             force,
             stored: view.law.stored(kind, &contact, &memory),
             working_velocity: contact.velocity,
-            working_spin: contact.spins[0],
+            working_spin: contact.spins[0] - contact.spins[1],
         });
     }
 }

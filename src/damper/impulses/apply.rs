@@ -40,6 +40,11 @@ impl<S: Space> ImpulseSolver<S> {
         }
         self.load_walls(step, state);
         self.store_forces(step, state.stamp, blocks);
+        // Back from the prediction: the mount is where the step begins.
+        let starts = &self.containers.starts;
+        for (compartment, start) in state.model.compartments.iter_mut().zip(starts) {
+            compartment.place(*start);
+        }
         state.accelerate_mount(state.time);
         Ok(())
     }

@@ -2,10 +2,11 @@
 
 use glam::{DMat3, DVec3};
 
+use super::turning::TurningContainer;
 use crate::cavity::Cavity;
-use crate::damper::state::{MountCoordinates, Space, State};
+use crate::damper::state::{Compartment, MountCoordinates, Space, State};
 use crate::law::ContactLaw;
-use crate::mount::Mount;
+use crate::mount::{Load, Mobility, Motion, Mount};
 
 /// The container of a cavity.
 #[derive(Debug, Clone, Copy, Default)]
@@ -26,21 +27,32 @@ pub(super) struct Container<S: Space> {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Containers<S: Space> {
     pub(super) each: Vec<Container<S>>,
+    /// How they turn; empty if none does.
+    pub(super) turning: Vec<TurningContainer<S>>,
+    /// Their motions at the beginning of the step.
+    pub(super) starts: Vec<Motion>,
     /// Velocity of the second of two containers per unit impulse on the first, 1/kg, row by row; empty if
     /// none yields.
     responses: Vec<DMat3>,
-    /// Scratch: the mount's coordinates and their rates at the middle of the step, rates at its end,
+    /// The same with what turns; empty if none does.
+    pub(super) mobilities: Vec<Mobility>,
+    /// Scratch: the mount's coordinates and their rates at the middle of the step, both at its end,
     /// accelerations, and loads.
     middle: [Vec<f64>; 2],
-    rates: Vec<f64>,
+    end: [Vec<f64>; 2],
     accelerations: Vec<f64>,
-    loads: Vec<DVec3>,
+    loads: Vec<Load>,
 }
 
 impl<S: Space> Containers<S> {
     /// Inverse effective mass of the container of a cavity, 1/kg: its velocity per unit impulse on it.
     pub(super) fn inverse_mass(&self, cavity: usize) -> Option<&DMat3> {
         self.responses.get(cavity * (self.each.len() + 1))
+    }
+
+    /// The same with what turns; none if nothing does.
+    pub(super) fn mobility(&self, cavity: usize) -> Option<&Mobility> {
+        self.mobilities.get(cavity * (self.each.len() + 1))
     }
 
     /// Whether impulses move any container.
@@ -77,14 +89,17 @@ impl<S: Space> Containers<S> {
         let cavities = state.model.compartments.len();
         let Containers {
             each,
+            turning,
+            starts,
             responses,
+            mobilities,
             middle: [middle, before],
-            rates,
+            end: [coordinates, rates],
             accelerations,
             loads,
         } = self;
         loads.clear();
-        loads.resize(cavities, DVec3::ZERO);
+        loads.resize(cavities, Load::default());
         accelerations.clear();
         accelerations.resize(degrees, 0.0);
         let advance = |from: &[f64], by: &[f64], time: f64, to: &mut Vec<f64>| {
@@ -98,7 +113,7 @@ impl<S: Space> Containers<S> {
             .accelerate(state.time, position, velocity, loads, accelerations);
         advance(position, velocity, half, middle);
         advance(velocity, accelerations, half, before);
-        let mut rates_under = |loads: &[DVec3], rates: &mut Vec<f64>| {
+        let mut rates_under = |loads: &[Load], rates: &mut Vec<f64>| {
             let time = state.time + half;
             state
                 .mount
@@ -106,43 +121,68 @@ impl<S: Space> Containers<S> {
             advance(velocity, accelerations, time_step, rates);
         };
         let end = state.time + time_step;
-        let at_end =
-            |rates: &[f64], cavity| state.mount.motion(end, position, rates, cavity).velocity;
-
         rates_under(loads, rates);
+        // How a container stands counts where it turns alone.
+        let turned = |compartment: &Compartment<C>| compartment.turned;
+        if state.model.compartments.iter().any(turned) {
+            advance(middle, rates, half, coordinates);
+        } else {
+            coordinates.clear();
+            coordinates.extend_from_slice(position);
+        }
+        let at_end = |rates: &[f64], cavity| state.mount.motion(end, coordinates, rates, cavity);
+
         each.clear();
-        each.extend(
-            state
-                .model
-                .compartments
-                .iter()
-                .enumerate()
-                .map(|(cavity, compartment)| {
-                    let free = at_end(rates, cavity);
-                    let velocity_gain =
-                        state.gravity * time_step - (free - compartment.motion.velocity);
-                    Container {
-                        velocity: S::vector(free),
-                        free: S::vector(free),
-                        velocity_gain,
-                        speed_gain: velocity_gain.length(),
-                        origin: compartment.motion.position,
-                    }
-                }),
-        );
+        turning.clear();
+        starts.clear();
+        let mut turns = false;
+        for (cavity, compartment) in state.model.compartments.iter().enumerate() {
+            let motion = at_end(rates, cavity);
+            let (start, free) = (compartment.motion, motion.velocity);
+            let velocity_gain = state.gravity * time_step - (free - start.velocity);
+            each.push(Container {
+                velocity: S::vector(free),
+                free: S::vector(free),
+                velocity_gain,
+                speed_gain: velocity_gain.length(),
+                origin: start.position,
+            });
+            turning.push(TurningContainer::new(&start, &motion));
+            starts.push(start);
+            turns |= compartment.turned || !motion.is_translation();
+        }
         responses.clear();
+        mobilities.clear();
+        if !turns {
+            turning.clear();
+        }
         if degrees == 0 {
             return;
         }
         responses.resize(cavities * cavities, DMat3::ZERO);
+        let axes = if turns {
+            mobilities.resize(cavities * cavities, Mobility::ZERO);
+            6
+        } else {
+            S::WIDTH
+        };
         for struck in 0..cavities {
-            for axis in 0..S::WIDTH {
-                loads[struck] = DVec3::AXES[axis];
+            for axis in 0..axes {
+                loads[struck] = Load::unit(axis);
                 rates_under(loads, rates);
-                loads[struck] = DVec3::ZERO;
+                loads[struck] = Load::default();
                 for (cavity, container) in each.iter().enumerate() {
-                    let gained = at_end(rates, cavity) - S::in_space(container.free);
-                    *responses[struck * cavities + cavity].col_mut(axis) = gained / time_step;
+                    let motion = at_end(rates, cavity);
+                    let gained = motion.velocity - S::in_space(container.free);
+                    let place = struck * cavities + cavity;
+                    if axis < S::WIDTH {
+                        *responses[place].col_mut(axis) = gained / time_step;
+                    }
+                    if turns {
+                        let free = S::spin_in_space(turning[cavity].free);
+                        let turned = (motion.angular_velocity - free) / time_step;
+                        mobilities[place].set(axis, gained / time_step, turned);
+                    }
                 }
             }
         }

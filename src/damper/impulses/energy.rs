@@ -56,6 +56,11 @@ impl<S: Space> ImpulseSolver<S> {
             let impulse = constraint.so_far().impulse;
             curvature -= S::dot(impulse, container.velocity - container.free);
         }
+        if self.turns() {
+            let [proportional, square] = self.work_of_rotation();
+            slope -= proportional;
+            curvature -= square;
+        }
         [slope, 0.5 * curvature]
     }
 
@@ -97,6 +102,10 @@ impl<S: Space> ImpulseSolver<S> {
         for container in &mut self.containers.each {
             let free = container.free;
             container.velocity = free + (container.velocity - free) * factor;
+        }
+        for turning in &mut self.containers.turning {
+            let free = turning.free;
+            turning.spin = free + (turning.spin - free) * factor;
         }
         for constraint in &mut self.constraints {
             constraint.impulse *= factor;

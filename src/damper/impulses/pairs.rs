@@ -135,7 +135,11 @@ impl<S: Space> ImpulseSolver<S> {
                     approach: lanes.approach[n],
                     smaller_radius: at_most(view.radius[i], view.radius[j]),
                     inverse_masses: [inverse_mass, inverse_mass * (1.0 + TURNING * lever * lever)],
-                    speed_gain: containers.each[view.compartment_of(pair[0])].speed_gain,
+                    speed_gain: containers.speed_gain(
+                        view.compartment_of(pair[0]),
+                        || view.position.get(i),
+                        step.time_step,
+                    ),
                 };
                 let place = (pair, lanes.towards[n] * lanes.inverse[n], lever);
                 let other;
@@ -161,7 +165,7 @@ impl<S: Space> ImpulseSolver<S> {
         }
         self.list_ends.push(self.constraints.len());
         if only.is_none_or(|own| view.law.rolling_arm(own) > 0.0) {
-            self.resist_rolling(step, view, list, start, |constraint, info| {
+            self.resist_rolling(step, view, list, (start, false), |constraint, info| {
                 list.pair_coefficients(view, constraint.bodies, info.candidate)
             });
         }

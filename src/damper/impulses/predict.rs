@@ -36,7 +36,8 @@ impl<S: Space> ImpulseSolver<S> {
             .iter_mut()
             .zip(&mut self.containers.each)
         {
-            compartment.motion.position += compartment.motion.velocity * ahead;
+            compartment.advance(ahead);
+            compartment.torque_origin = compartment.motion.position;
             container.origin = compartment.motion.position;
         }
         // Two bodies approach at twice the speed of the faster one at the most, and a wall at what its
@@ -46,8 +47,27 @@ impl<S: Space> ImpulseSolver<S> {
             .each
             .iter()
             .map(|container| container.speed_gain);
-        self.prediction_distance = ahead * (2.0 * fastest + speed_gains.fold(0.0, f64::max));
+        let speed_gain = speed_gains.fold(0.0, f64::max) + self.swept_gain(step, state, fastest);
+        self.prediction_distance = ahead * (2.0 * fastest + speed_gain);
         Ok(())
+    }
+
+    /// The speed (m/s) that a free particle of up to `fastest` (m/s) gains on any wall over the step because
+    /// containers turn, from above.
+    fn swept_gain<C: Cavity, L: ContactLaw, M: Mount>(
+        &self,
+        step: &SolverStep,
+        state: &State<C, L, M>,
+        fastest: f64,
+    ) -> f64 {
+        let compartments = state.model.compartments.iter();
+        let gains = compartments.zip(&self.containers.turning);
+        gains.fold(0.0, |most, (compartment, turning)| {
+            let free = S::spin_in_space(turning.free);
+            let (spin, reach) = (free.length(), compartment.reach());
+            let turned = spin * (spin * reach + 2.0 * fastest) * step.time_step;
+            at_least((free - turning.start).length() * reach + turned, most)
+        })
     }
 
     /// The same for the particles of a cavity. Returns the greatest speed (m/s) relative to the container,
@@ -96,8 +116,33 @@ impl<S: Space> ImpulseSolver<S> {
                 }
             },
         ));
+        if compartment.turned {
+            return fastest_on_turning(state, cavity, step.time_step);
+        }
         (fastest.sqrt(), too_fast)
     }
+}
+
+/// The greatest speed (m/s) relative to a container that is turned, and a particle that moves by more than its
+/// radius in the step.
+fn fastest_on_turning<C: Cavity, L: ContactLaw, M: Mount>(
+    state: &State<C, L, M>,
+    cavity: usize,
+    time_step: f64,
+) -> (f64, Option<usize>) {
+    let compartment = &state.model.compartments[cavity];
+    let particles = &state.particles;
+    let (mut fastest, mut too_fast) = (0.0, None);
+    for index in compartment.indices.clone() {
+        let position = || particles.position.get(index);
+        let relative = compartment.relative(position, particles.velocity.get(index));
+        let speed = relative.length();
+        fastest = at_least(speed, fastest);
+        if speed * time_step > particles.radius[index] {
+            too_fast = Some(index);
+        }
+    }
+    (fastest, too_fast)
 }
 
 fn too_fast<C: Cavity, L: ContactLaw, M: Mount>(
@@ -105,8 +150,9 @@ fn too_fast<C: Cavity, L: ContactLaw, M: Mount>(
     index: usize,
     time_step: f64,
 ) -> StepError {
-    let container = state.model.compartments[state.model.cavity_of(index)].motion;
-    let relative = state.particles.velocity.get(index) - container.velocity;
+    let compartment = &state.model.compartments[state.model.cavity_of(index)];
+    let position = || state.particles.position.get(index);
+    let relative = compartment.relative(position, state.particles.velocity.get(index));
     StepError::TooFast {
         particle: state.particles.id[index] as usize,
         speed: relative.length(),

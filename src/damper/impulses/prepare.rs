@@ -4,6 +4,7 @@
 #![allow(clippy::inline_always)]
 
 use super::constraint::{ContactConstraint, RollingConstraint, TURNING};
+use super::turning::carried;
 use super::{ImpulseSolver, SolverStep};
 use crate::cavity::Cavity;
 use crate::contact::{HeldForce, Partner};
@@ -161,6 +162,7 @@ impl<S: Space> ImpulseSolver<S> {
         self.contact_counts.clear();
         self.contact_counts.resize(self.bodies.len(), 0);
         self.rolling.clear();
+        self.arms.clear();
     }
 
     /// Adds the constraints of the contacts of a block with walls.
@@ -181,13 +183,14 @@ impl<S: Space> ImpulseSolver<S> {
             let n = index as usize;
             let body = &self.bodies[n];
             let cavity = view.cavity_of_wall(wall);
-            let container = &self.containers.each[cavity];
             let point = view.wall_point(wall, view.position.get(n));
             let normal = S::vector(point.normal);
             let radius = view.radius[n];
-            let velocity = body.velocity - container.free;
+            let touch = view.position.get(n) - point.normal * point.distance;
+            let motion = self.containers.wall_at(cavity, touch, step.time_step);
+            let velocity = body.velocity - motion.free;
             let ahead = -S::dot(velocity, normal);
-            let approach = at_least(ahead + container.velocity_gain.dot(point.normal), 0.0);
+            let approach = at_least(ahead + motion.velocity_gain.dot(point.normal), 0.0);
             let overlap = radius - point.distance;
             let prediction_distance = step.prediction_distance(at_least(ahead, approach));
             if -overlap >= prediction_distance {
@@ -200,18 +203,33 @@ impl<S: Space> ImpulseSolver<S> {
                 let slip = S::slip(normal, velocity, -ahead, body.spin * lever);
                 let slip = S::across(normal, slip);
                 let square = S::dot(slip, slip) + f64::MIN_POSITIVE;
-                inverse_masses[0] += S::dot(normal, S::transform(response, normal));
-                inverse_masses[1] += S::dot(slip, S::transform(response, slip)) / square;
+                let [along, across] = match self.containers.mobility(cavity) {
+                    None => [normal, slip].map(|way| S::dot(way, S::transform(response, way))),
+                    Some(mobility) => {
+                        let arm = S::in_space(motion.arm);
+                        [normal, slip].map(|way| mobility.along(S::in_space(way), arm))
+                    }
+                };
+                inverse_masses[0] += along;
+                inverse_masses[1] += across / square;
             }
             let kinematics = ContactKinematics {
                 overlap,
                 approach,
                 smaller_radius: radius,
                 inverse_masses,
-                speed_gain: container.speed_gain,
+                speed_gain: motion.speed_gain,
             };
             let own = view.coefficients.wall(view.species[n]);
             let held = list.memory_of(candidate, view.stamp);
+            let turned;
+            let held = match held {
+                Some(held) if self.turns() => {
+                    turned = carried(held, &view.compartments[cavity], step.time_step);
+                    Some(&turned)
+                }
+                held => held,
+            };
             let bodies = [index, cavity as u32];
             let place = (bodies, normal, lever);
             let (constraint, rests) = step.constrain(view.law, own, place, &kinematics, held);
@@ -229,11 +247,14 @@ impl<S: Space> ImpulseSolver<S> {
                 speed_gain: kinematics.speed_gain,
             });
             self.contact_counts[n] += 1;
+            if self.turns() {
+                self.arms.push(motion.arm);
+            }
         }
         self.list_ends.push(self.constraints.len());
         let only = view.coefficients.only_wall();
         if only.is_none_or(|own| view.law.rolling_arm(own) > 0.0) {
-            self.resist_rolling(step, view, list, start, |constraint, _| {
+            self.resist_rolling(step, view, list, (start, true), |constraint, _| {
                 *view
                     .coefficients
                     .wall(view.species[constraint.bodies[0] as usize])
@@ -247,7 +268,7 @@ impl<S: Space> ImpulseSolver<S> {
         step: &SolverStep,
         view: &StateView<'_, C, L>,
         list: &NeighbourList<L>,
-        start: usize,
+        (start, walls): (usize, bool),
         own: impl Fn(&ContactConstraint<S>, &ConstraintInfo) -> L::Coefficients,
     ) {
         for n in start..self.constraints.len() {
@@ -262,7 +283,12 @@ impl<S: Space> ImpulseSolver<S> {
             let held = list.memory_of(info.candidate, view.stamp);
             let speed_gain = info.speed_gain;
             let couple = held.map_or_else(S::Spin::default, |held| {
-                S::spin(held.force.couple) * step.warm_start_time(held, speed_gain)
+                let mut couple = held.force.couple;
+                if walls && self.turns() {
+                    let compartment = &view.compartments[second];
+                    couple = carried(held, compartment, step.time_step).force.couple;
+                }
+                S::spin(couple) * step.warm_start_time(held, speed_gain)
             });
             let mut rolling = RollingConstraint {
                 arm,
@@ -270,11 +296,15 @@ impl<S: Space> ImpulseSolver<S> {
                 effective_inertia: 1.0 / inverse_inertia(first),
                 impulse: couple,
             };
-            // Pairs are listed before walls.
-            if self.pairs == 0 {
+            if !walls {
                 rolling.curvatures[1] = curvature(second);
                 rolling.effective_inertia =
                     1.0 / (inverse_inertia(first) + inverse_inertia(second));
+            } else if self.turns() {
+                // The spin of a container is no multiple of a radius.
+                rolling.curvatures[1] = 1.0;
+                let container = self.containers.greatest_inverse_inertia(second);
+                rolling.effective_inertia = 1.0 / (inverse_inertia(first) + container);
             }
             self.rolling.resize(n, RollingConstraint::default());
             self.rolling.push(rolling);

@@ -55,7 +55,14 @@ impl<S: Space> ImpulseSolver<S> {
             partner = Partner::Wall(self.infos[number].wall - compartment.first_wall);
             radii = [particles.radius[index], 0.0];
             let after = S::in_space(self.containers.each[cavity].velocity);
-            others = [compartment.motion.velocity, after].map(|velocity| (velocity, DVec3::ZERO));
+            let mut spins = [DVec3::ZERO; 2];
+            let mut arm = DVec3::ZERO;
+            if let Some(turning) = self.containers.turning.get(cavity) {
+                spins = [turning.start, S::spin_in_space(turning.spin)];
+                arm = S::in_space(self.arms[number - self.pairs]);
+            }
+            let velocities = [compartment.motion.velocity, after];
+            others = [0, 1].map(|end| (velocities[end] + spins[end].cross(arm), spins[end]));
         }
         let normal = S::in_space(constraint.normal);
         let levers = radii.map(|radius| constraint.lever * radius);

@@ -98,8 +98,14 @@ impl<S: Space> ImpulseSolver<S> {
             for pair in pairs {
                 solve_pair(pair, &mut self.bodies);
             }
-            for wall in walls {
-                solve_wall(wall, &mut self.bodies, &mut self.containers);
+            if self.containers.turning.is_empty() {
+                for wall in walls {
+                    solve_wall(wall, &mut self.bodies, &mut self.containers);
+                }
+            } else {
+                for number in self.pairs..self.constraints.len() {
+                    self.solve_turning_wall(number);
+                }
             }
         } else if number.is_multiple_of(2) {
             for n in 0..self.coupled.len() {
@@ -115,10 +121,19 @@ impl<S: Space> ImpulseSolver<S> {
     #[inline(always)]
     fn solve_coupled(&mut self, n: usize) {
         let number = self.coupled[n] as usize;
-        let constraint = &mut self.constraints[number];
         if number < self.pairs {
-            solve_pair(constraint, &mut self.bodies);
+            solve_pair(&mut self.constraints[number], &mut self.bodies);
         } else {
+            self.solve_wall(number);
+        }
+    }
+
+    #[inline(always)]
+    fn solve_wall(&mut self, number: usize) {
+        if self.turns() {
+            self.solve_turning_wall(number);
+        } else {
+            let constraint = &mut self.constraints[number];
             solve_wall(constraint, &mut self.bodies, &mut self.containers);
         }
     }
@@ -128,17 +143,20 @@ impl<S: Space> ImpulseSolver<S> {
         let count = self.constraints.len();
         for turn in 0..count {
             let number = if to { turn } else { count - 1 - turn };
-            let constraint = &mut self.constraints[number];
-            let [first, second] = constraint.bodies.map(|body| body as usize);
+            let [first, second] = self.constraints[number].bodies.map(|body| body as usize);
             let mut spins = [S::Spin::default(); 2];
             if number < self.pairs {
-                solve_pair(constraint, &mut self.bodies);
+                solve_pair(&mut self.constraints[number], &mut self.bodies);
                 spins[1] = self.bodies[second].spin;
             } else {
-                solve_wall(constraint, &mut self.bodies, &mut self.containers);
+                self.solve_wall(number);
+                if let Some(container) = self.containers.turning.get(second) {
+                    spins[1] = container.spin;
+                }
             }
             spins[0] = self.bodies[first].spin;
-            let change = self.rolling[number].solve(spins, constraint.impulse);
+            let impulse = self.constraints[number].impulse;
+            let change = self.rolling[number].solve(spins, impulse);
             self.roll(number, change);
         }
     }
@@ -147,8 +165,9 @@ impl<S: Space> ImpulseSolver<S> {
     pub(super) fn sweep_at_once(&mut self) {
         self.before_sweep.0.clone_from(&self.bodies);
         self.before_sweep.1.clone_from(&self.containers.each);
+        self.before_sweep.2.clone_from(&self.containers.turning);
         for number in 0..self.constraints.len() {
-            let (bodies, containers) = (&self.before_sweep.0, &self.before_sweep.1);
+            let (bodies, containers, turning) = &self.before_sweep;
             let constraint = &mut self.constraints[number];
             let [first, second] = constraint.bodies.map(|body| body as usize);
             let first = bodies[first];
@@ -160,12 +179,20 @@ impl<S: Space> ImpulseSolver<S> {
                     ..SolverBody::default()
                 }
             };
-            let velocity = first.velocity - second.velocity;
+            let mut velocity = first.velocity - second.velocity;
+            let mut other = second.spin;
+            if let Some(arm) = number
+                .checked_sub(self.pairs)
+                .and_then(|n| self.arms.get(n))
+            {
+                other = turning[constraint.bodies[1] as usize].spin;
+                velocity -= S::swing(other, *arm);
+            }
             let change = constraint.solve(velocity, first.spin + second.spin);
             let impulse = constraint.impulse;
             self.give(number, &change);
             if let Some(rolling) = self.rolling.get_mut(number) {
-                let change = rolling.solve([first.spin, second.spin], impulse);
+                let change = rolling.solve([first.spin, other], impulse);
                 self.roll(number, change);
             }
         }
@@ -178,6 +205,11 @@ impl<S: Space> ImpulseSolver<S> {
         self.bodies[first].add(change);
         if number < self.pairs {
             self.bodies[second].subtract(change);
+        } else if self.turns() {
+            let arm = self.arms[number - self.pairs];
+            let none = S::Spin::default();
+            let containers = &mut self.containers;
+            containers.add_at(second, change.impulse * -1.0, arm, none);
         } else {
             self.containers.add(second, change.impulse * -1.0);
         }
@@ -192,6 +224,9 @@ impl<S: Space> ImpulseSolver<S> {
         if number < self.pairs {
             let body = &mut self.bodies[second];
             body.spin -= rolling.turn(1, change) * body.inverse_mass;
+        } else if self.turns() {
+            let none = S::Vector::default();
+            self.containers.add_at(second, none, none, change * -1.0);
         }
     }
 }

@@ -16,7 +16,7 @@ use glam::DVec3;
 use super::list::{ContactRecord, NeighbourList};
 use crate::cavity::Cavity;
 use crate::contact::Partner;
-use crate::damper::state::{Plane, Rows, Space, StateView, Volume};
+use crate::damper::state::{Compartment, Plane, Rows, Space, StateView, Volume};
 use crate::law::{ContactLaw, ContactMemory};
 
 /// How many particles make a block at the least; a bed of no more is one block.
@@ -119,10 +119,12 @@ impl<L: ContactLaw> Block<L> {
         let mut trusted = true;
         for compartment in view.compartments {
             let own = compartment.indices_in(&self.indices);
-            let (now, then) = (view.position.part(own.clone()), reference.part(own));
+            let (now, then) = (view.position.part(own.clone()), reference.part(own.clone()));
             let limit = 0.25 * compartment.margin * compartment.margin;
             let origin = compartment.motion.position;
-            trusted &= if view.planar {
+            trusted &= if compartment.turned {
+                all_within_turned(compartment, own.len(), [now, then], limit)
+            } else if view.planar {
                 all_within::<Plane>(now, then, origin, limit)
             } else {
                 all_within::<Volume>(now, then, origin, limit)
@@ -219,6 +221,19 @@ fn find_pairs<C, L: ContactLaw, S: Space>(
         let apart = S::from_row(position[i]) - S::from_row(position[j as usize]);
         S::dot(apart, apart) < limit * limit
     });
+}
+
+/// Whether all of `count` points are near to where they were, seen from a container that is turned.
+fn all_within_turned<C>(
+    compartment: &Compartment<C>,
+    count: usize,
+    [now, then]: [Rows<'_>; 2],
+    limit: f64,
+) -> bool {
+    (0..count).all(|n| {
+        let moved = compartment.to_local(now.get(n)) - then.get(n);
+        moved.length_squared() <= limit
+    })
 }
 
 /// Whether all points `now` are nearer to those `then`, seen from `origin`, than the root of `limit`.

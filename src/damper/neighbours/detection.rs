@@ -24,9 +24,8 @@ fn bed<'a, C: Cavity>(
     local: &'a mut Vec<DVec3>,
 ) -> Bed<'a> {
     let indices = compartment.indices.clone();
-    let origin = compartment.motion.position;
     let positions = indices.clone();
-    local.extend(positions.map(|index| particles.position.get(index) - origin));
+    local.extend(positions.map(|index| compartment.to_local(particles.position.get(index))));
     Bed::new(
         &local[indices.clone()],
         &particles.radius[indices],

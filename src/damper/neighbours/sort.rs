@@ -60,10 +60,16 @@ impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
         let mut order: Vec<(u64, u32)> = Vec::with_capacity(particles.len());
         for compartment in &state.model.compartments {
             let [lower, _] = compartment.cavity.bounds();
-            let lower = lower + compartment.motion.position;
+            let shifted = lower + compartment.motion.position;
             let start = order.len();
             order.extend(compartment.indices.clone().map(|index| {
-                let cell = (particles.position.get(index) - lower) * density;
+                let position = particles.position.get(index);
+                let place = if compartment.turned {
+                    compartment.to_local(position) - lower
+                } else {
+                    position - shifted
+                };
+                let cell = place * density;
                 (morton(cell), particles.id[index])
             }));
             order[start..].sort_unstable();

@@ -28,8 +28,7 @@ use crate::step_error::StepError;
 /// };
 /// let mut host = Recorded::new(build()?, 10);
 /// for n in 1..100 {
-///     let (position, velocity) = (DVec3::Y * 1e-4 * f64::from(n), DVec3::Y * 0.1);
-///     host.drive(Motion { position, velocity }, 1e-3)?;
+///     host.drive(Motion::at(DVec3::Y * 1e-4 * f64::from(n), DVec3::Y * 0.1), 1e-3)?;
 /// }
 /// assert_eq!(host.recording().replay(&mut build()?)?, None);
 /// # Ok(())
@@ -312,6 +311,11 @@ where
 
 fn digest(reaction: &Reaction) -> Digest {
     let mut digest = Digest::default();
-    digest.vectors(&[reaction.force, reaction.impulse]);
+    digest.vectors(&[
+        reaction.force,
+        reaction.impulse,
+        reaction.torque,
+        reaction.angular_impulse,
+    ]);
     digest
 }

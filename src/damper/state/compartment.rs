@@ -1,12 +1,16 @@
 //! The compartments of the bed: a cavity each, with the particles in it and the container around it.
 
+// Small functions of the innermost loop: the compiler must see the loop whole.
+#![allow(clippy::inline_always)]
+
 use std::ops::Range;
 
 use glam::{DMat3, DVec3};
 
-use crate::cavity::Cavity;
+use crate::cavity::{Cavity, WallPoint};
 use crate::contact::WallLoad;
-use crate::mount::Motion;
+use crate::mount::{Load, Mobility, Motion};
+use crate::rotation::exp;
 
 /// A cavity with the particles in it.
 #[derive(Debug, Clone)]
@@ -18,34 +22,158 @@ pub(crate) struct Compartment<C> {
     pub(crate) first_wall: u32,
     /// Where its container is, and how it moves.
     pub(crate) motion: Motion,
-    /// Inverse effective mass of the container: velocity that it gains per unit impulse, 1/kg.
-    pub(crate) inverse_mass: DMat3,
+    /// The container's orientation as a matrix.
+    rotation: DMat3,
+    /// Whether the container stands turned, turns, or is turned by what the particles do.
+    pub(crate) turned: bool,
+    /// What impulses on the container do to it.
+    pub(crate) mobility: Mobility,
+    /// The point that the torques on the walls are about: where the container's origin was when they were
+    /// worked out, m.
+    pub(crate) torque_origin: DVec3,
     /// How much farther than the law's reach candidates are listed, m: they can be trusted while no
     /// particle has moved by half of it.
     pub(crate) margin: f64,
 }
 
 impl<C: Cavity> Compartment<C> {
-    /// Force of the particles on the container in N, from the loads on the walls of all cavities.
-    pub(crate) fn load(&self, walls: &[WallLoad]) -> DVec3 {
+    /// A cavity with the particles at `indices`, whose first wall is the one of that number. Its container
+    /// is at the origin.
+    pub(crate) fn new(cavity: C, indices: Range<usize>, first_wall: u32, margin: f64) -> Self {
+        Self {
+            cavity,
+            indices,
+            first_wall,
+            motion: Motion::default(),
+            rotation: DMat3::IDENTITY,
+            turned: false,
+            mobility: Mobility::ZERO,
+            torque_origin: DVec3::ZERO,
+            margin,
+        }
+    }
+
+    /// What the particles do to the container, from the loads on the walls of all cavities.
+    pub(crate) fn load(&self, walls: &[WallLoad]) -> Load {
         let first = self.first_wall as usize;
         let own = &walls[first..first + self.cavity.walls() as usize];
-        own.iter().map(|wall| wall.force).sum()
+        let force: DVec3 = own.iter().map(|wall| wall.force).sum();
+        let torque: DVec3 = own.iter().map(|wall| wall.torque).sum();
+        let arm = self.torque_origin - self.motion.position;
+        Load::new(force, torque + arm.cross(force))
+    }
+
+    /// How one of its walls stands to a point of the fixed frame.
+    #[inline(always)]
+    pub(crate) fn wall(&self, wall: u32, position: DVec3) -> WallPoint {
+        let number = wall - self.first_wall;
+        if self.turned {
+            let point = self.cavity.wall(number, self.to_local(position));
+            WallPoint {
+                normal: self.rotation * point.normal,
+                distance: point.distance,
+            }
+        } else {
+            self.cavity.wall(number, position - self.motion.position)
+        }
+    }
+
+    /// The greatest velocity that the container gains anywhere per unit impulse, from above, 1/kg.
+    pub(crate) fn greatest_inverse_mass(&self) -> f64 {
+        self.mobility.greatest(self.reach())
+    }
+
+    /// The distance of the farthest point of the cavity from the container's origin, from above, m.
+    pub(crate) fn reach(&self) -> f64 {
+        let [low, high] = self.cavity.bounds();
+        low.abs().max(high.abs()).length()
     }
 }
 
 impl<C> Compartment<C> {
-    /// Velocity along `normal` that the container gains per unit impulse along it, 1/kg.
-    #[inline(always)]
-    pub(crate) fn inverse_mass_along(&self, normal: DVec3) -> f64 {
-        normal.dot(self.inverse_mass * normal)
+    /// Moves the container.
+    pub(crate) fn place(&mut self, motion: Motion) {
+        self.motion = motion;
+        self.turned = !motion.is_translation() || self.mobility.turns();
+        if self.turned {
+            self.rotation = DMat3::from_quat(motion.orientation);
+        }
     }
 
-    /// The greatest velocity that the container gains per unit impulse in any direction, from above
-    /// (Gershgorin), 1/kg.
-    pub(crate) fn greatest_inverse_mass(&self) -> f64 {
-        let rows = [0, 1, 2].map(|row| self.inverse_mass.row(row).abs().element_sum());
-        rows.into_iter().fold(0.0, f64::max)
+    /// Moves the container to where it will be in `time` (s) if it goes on as it does.
+    pub(crate) fn advance(&mut self, time: f64) {
+        self.motion.position += self.motion.velocity * time;
+        if self.turned {
+            let turn = exp(self.motion.angular_velocity * time);
+            self.motion.orientation = turn * self.motion.orientation;
+            self.rotation = DMat3::from_quat(self.motion.orientation);
+        }
+    }
+
+    /// Where a point of the fixed frame is in the container's.
+    #[inline(always)]
+    pub(crate) fn to_local(&self, position: DVec3) -> DVec3 {
+        let arm = position - self.motion.position;
+        if self.turned {
+            let DMat3 {
+                x_axis,
+                y_axis,
+                z_axis,
+            } = self.rotation;
+            DVec3::new(x_axis.dot(arm), y_axis.dot(arm), z_axis.dot(arm))
+        } else {
+            arm
+        }
+    }
+
+    /// Where a point of the container is in the fixed frame.
+    pub(crate) fn to_fixed(&self, point: DVec3) -> DVec3 {
+        if self.turned {
+            self.rotation * point + self.motion.position
+        } else {
+            point + self.motion.position
+        }
+    }
+
+    /// How `velocity` is seen from the container at a point of the fixed frame, m/s.
+    #[inline(always)]
+    pub(crate) fn relative(&self, point: impl Fn() -> DVec3, velocity: DVec3) -> DVec3 {
+        let relative = velocity - self.motion.velocity;
+        if self.turned {
+            let turning = self.motion.angular_velocity;
+            relative - turning.cross(point() - self.motion.position)
+        } else {
+            relative
+        }
+    }
+
+    /// How `acceleration` (m/s^2) of a body that moves with `velocity` at a point is seen from the container,
+    /// as far as its rotation goes.
+    #[inline(always)]
+    pub(crate) fn relative_acceleration(
+        &self,
+        position: DVec3,
+        velocity: DVec3,
+        acceleration: DVec3,
+    ) -> DVec3 {
+        if self.turned {
+            let turning = self.motion.angular_velocity;
+            let inwards = turning.cross(turning.cross(position - self.motion.position));
+            let relative = self.relative(|| position, velocity);
+            acceleration - inwards - turning.cross(relative) * 2.0
+        } else {
+            acceleration
+        }
+    }
+
+    /// Velocity along `normal` that the wall gains per unit impulse along it at a point, 1/kg.
+    #[inline(always)]
+    pub(crate) fn inverse_mass_along(&self, normal: DVec3, point: impl Fn() -> DVec3) -> f64 {
+        if self.turned {
+            self.mobility.along(normal, point() - self.motion.position)
+        } else {
+            normal.dot(self.mobility.linear * normal)
+        }
     }
 
     /// The indices among `indices` whose particles are in this compartment.

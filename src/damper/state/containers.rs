@@ -1,11 +1,9 @@
 //! The containers: where the mount has them, and what the particles do to it.
 
-use glam::DMat3;
-
 use super::State;
 use crate::cavity::Cavity;
-use crate::law::ContactLaw;
-use crate::mount::{self, Motion, Mount};
+use crate::law::{ContactLaw, LawKind};
+use crate::mount::{Motion, Mount};
 use crate::step_error::StepError;
 
 impl<C: Cavity, L: ContactLaw, M: Mount> State<C, L, M> {
@@ -23,23 +21,12 @@ impl<C: Cavity, L: ContactLaw, M: Mount> State<C, L, M> {
             });
         }
         for (cavity, compartment) in self.model.compartments.iter_mut().enumerate() {
-            let Motion { position, velocity } =
-                self.mount.motion(time, coordinates, velocities, cavity);
-            if !(position.is_finite() && velocity.is_finite()) {
-                return Err(StepError::Container {
-                    cavity,
-                    position,
-                    velocity,
-                });
+            let motion = self.mount.motion(time, coordinates, velocities, cavity);
+            let motion = checked(motion, cavity, compartment.cavity.is_planar())?;
+            compartment.place(motion);
+            if !L::Kind::HELD {
+                compartment.torque_origin = motion.position;
             }
-            if compartment.cavity.is_planar() && (position.z != 0.0 || velocity.z != 0.0) {
-                return Err(StepError::OutOfPlane {
-                    cavity,
-                    position,
-                    velocity,
-                });
-            }
-            compartment.motion = Motion { position, velocity };
         }
         Ok(())
     }
@@ -57,28 +44,78 @@ impl<C: Cavity, L: ContactLaw, M: Mount> State<C, L, M> {
         }
         let degrees = self.mount.degrees();
         let state = &mut self.mount_coordinates;
-        let (accelerations, impulses) = state.acceleration.split_at_mut(degrees);
-        for (impulse, load) in impulses.chunks_exact_mut(3).zip(&self.loads) {
-            impulse.copy_from_slice(&load.to_array());
-        }
+        let compartments = self.model.compartments.iter();
+        let origins = compartments.map(|compartment| compartment.motion.position);
+        state.sum_up(degrees, self.loads.iter().copied().zip(origins));
         self.mount.accelerate(
             time,
             &state.position[..degrees],
             &state.velocity[..degrees],
             &self.loads,
-            accelerations,
+            &mut state.acceleration[..degrees],
         );
     }
 
-    /// Velocity of the second of two containers per unit impulse on the first, 1/kg, row by row.
-    pub(crate) fn container_responses(&self) -> Vec<DMat3> {
-        let cavities = self.model.compartments.len();
-        mount::responses(
-            &self.mount,
-            self.time,
-            self.mount_coordinates.own(self.mount.degrees()),
-            self.mount_coordinates.own_rates(self.mount.degrees()),
-            cavities,
-        )
+    /// Works out anew how containers yield that turn as they do: where they stand counts.
+    pub(crate) fn update_mobilities(&mut self) {
+        if !self.mobilities.turn() {
+            return;
+        }
+        let degrees = self.mount.degrees();
+        let own = &self.mount_coordinates;
+        let own = [own.own(degrees), own.own_rates(degrees)];
+        self.mobilities.update(&self.mount, self.time, own);
+        for (cavity, compartment) in self.model.compartments.iter_mut().enumerate() {
+            compartment.mobility = self.mobilities.own(cavity);
+        }
     }
+
+    /// Lets the mount begin the next step with other coordinates.
+    pub(crate) fn rebase_mount(&mut self) {
+        let degrees = self.mount.degrees();
+        let own = &mut self.mount_coordinates;
+        let coordinates = &mut own.position[..degrees];
+        self.mount.rebase(coordinates, &mut own.velocity[..degrees]);
+    }
+}
+
+/// `motion` with its orientation normalised, unless no container can move so.
+pub(crate) fn checked(motion: Motion, cavity: usize, planar: bool) -> Result<Motion, StepError> {
+    let Motion {
+        position,
+        velocity,
+        orientation,
+        angular_velocity,
+    } = motion;
+    if !(position.is_finite() && velocity.is_finite()) {
+        return Err(StepError::Container {
+            cavity,
+            position,
+            velocity,
+        });
+    }
+    let unfit = StepError::Orientation {
+        cavity,
+        orientation,
+        angular_velocity,
+    };
+    if !motion.is_finite() {
+        return Err(unfit);
+    }
+    if planar && !motion.is_in_plane() {
+        return Err(if motion.is_translation() {
+            StepError::OutOfPlane {
+                cavity,
+                position,
+                velocity,
+            }
+        } else {
+            StepError::TurnsOutOfPlane {
+                cavity,
+                orientation,
+                angular_velocity,
+            }
+        });
+    }
+    motion.normalized().ok_or(unfit)
 }

@@ -1,12 +1,13 @@
 //! What lies behind a step that cannot be taken: whoever is found out of place is rarely to blame.
 
-use crate::step_error::Cause;
+use glam::DVec3;
 
-use super::State;
+use super::{Compartment, State};
 use crate::cavity::Cavity;
 use crate::law::ContactLaw;
 use crate::mount::{Motion, Mount};
-use crate::step_error::StepError;
+use crate::rotation::{exp, log};
+use crate::step_error::{Cause, StepError};
 
 /// How far a container may leave the course that it begins a step with, in radii of the smallest particle.
 const JUMP: f64 = 0.5;
@@ -62,17 +63,26 @@ impl<C: Cavity, L: ContactLaw, M: Mount> State<C, L, M> {
         let borne = ABOVE * reference;
         let compartments = self.model.compartments.iter().zip(&self.step_start.motions);
         let far = compartments.map(|(compartment, start)| {
-            (
-                compartment.motion,
-                compartment.motion.position.distance(start.position),
-            )
+            let motion = compartment.motion;
+            let way = motion.position.distance(start.position);
+            let angle = turn(start, &motion).length();
+            (compartment, motion, [way, angle * compartment.reach()])
         });
-        let fastest = far.max_by(|a, b| a.1.total_cmp(&b.1));
-        if let Some((motion, way)) = fastest
-            && (way > FAST * radius || motion.velocity.length() > borne)
-        {
+        let fastest = far.max_by(|a, b| (a.2[0] + a.2[1]).total_cmp(&(b.2[0] + b.2[1])));
+        if let Some((compartment, motion, [way, swept])) = fastest {
             let velocity = motion.velocity;
-            return self.runaway().unwrap_or(Cause::Container { velocity, way });
+            let angular_velocity = motion.angular_velocity;
+            let reach = compartment.reach();
+            if way > FAST * radius || velocity.length() > borne {
+                return self.runaway().unwrap_or(Cause::Container { velocity, way });
+            }
+            if swept > FAST * radius || angular_velocity.length() * reach > borne {
+                let angle = swept / reach;
+                return self.runaway().unwrap_or(Cause::Rotation {
+                    angular_velocity,
+                    angle,
+                });
+            }
         }
         let (index, speed) = self.fastest();
         if speed > borne {
@@ -105,7 +115,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount> State<C, L, M> {
         let mut fastest = (0, 0.0);
         for compartment in &self.model.compartments {
             for index in compartment.indices.clone() {
-                let velocity = self.particles.velocity.get(index) - compartment.motion.velocity;
+                let position = || self.particles.position.get(index);
+                let velocity = self.particles.velocity.get(index);
+                let velocity = compartment.relative(position, velocity);
                 if velocity.length() > fastest.1 {
                     fastest = (index, velocity.length());
                 }
@@ -138,8 +150,37 @@ impl<C: Cavity, L: ContactLaw, M: Mount> State<C, L, M> {
                     cause: cause.unwrap_or(Cause::Container { velocity, way }),
                 });
             }
+            if compartment.turned {
+                self.check_turn(cavity, compartment, start, limit)?;
+            }
         }
         Ok(())
+    }
+
+    /// The same of its orientation: by what the farthest point of the cavity leaves its course.
+    fn check_turn(
+        &self,
+        cavity: usize,
+        compartment: &Compartment<C>,
+        start: &Motion,
+        limit: f64,
+    ) -> Result<(), StepError> {
+        let motion = &compartment.motion;
+        let course = exp(start.angular_velocity * self.time_step) * start.orientation;
+        let off = turn(&start.turned(course, DVec3::ZERO), motion).length() * compartment.reach();
+        if off <= limit {
+            return Ok(());
+        }
+        let cause = self.runaway();
+        Err(StepError::Jump {
+            cavity,
+            off,
+            limit,
+            cause: cause.unwrap_or(Cause::Rotation {
+                angular_velocity: motion.angular_velocity,
+                angle: turn(start, motion).length(),
+            }),
+        })
     }
 
     /// Refuses the velocity of a prescribed motion that is not the rate of its position.
@@ -173,6 +214,36 @@ impl<C: Cavity, L: ContactLaw, M: Mount> State<C, L, M> {
                     rate: way / time_step,
                 });
             }
+            if compartment.turned {
+                self.check_angular_rate(cavity, compartment, start)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The same of its orientation, at the farthest point of the cavity.
+    fn check_angular_rate(
+        &self,
+        cavity: usize,
+        compartment: &Compartment<C>,
+        start: &Motion,
+    ) -> Result<(), StepError> {
+        let motion = &compartment.motion;
+        let radius = self.particles.smallest_radius.min(f64::MAX);
+        let reach = compartment.reach();
+        let angle = turn(start, motion);
+        let both = [start.angular_velocity, motion.angular_velocity];
+        let angular_velocity = (both[0] + both[1]) * 0.5;
+        let fastest = both[0].length().max(both[1].length());
+        let off = (angle - angular_velocity * self.time_step).length() * reach;
+        if angle.length() * reach <= JUMP * radius
+            && off > RATE * fastest * reach * self.time_step * (1.0 + 1e-9) + STILL * radius
+        {
+            return Err(StepError::TurnsOtherwise {
+                cavity,
+                angular_velocity,
+                rate: angle / self.time_step,
+            });
         }
         Ok(())
     }
@@ -204,4 +275,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount> State<C, L, M> {
         }
         Ok(())
     }
+}
+
+/// The rotation vector from one motion to another, rad.
+fn turn(from: &Motion, to: &Motion) -> DVec3 {
+    log(to.orientation * from.orientation.conjugate())
 }

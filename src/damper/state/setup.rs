@@ -7,7 +7,7 @@ use crate::cavity::Cavity;
 use crate::contact::{Body, Contact};
 use crate::digest::Digest;
 use crate::law::{ContactLaw, ForceLaw, ImpulseLaw, LawKind, LawVisitor};
-use crate::mount::Mount;
+use crate::mount::{Mobility, Mount};
 
 /// The setup of a damper, as far as its state means nothing without it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,7 +31,7 @@ impl Setup {
         }
     }
 
-    /// The setup of `state` under steps of `time_step` (s).
+    /// The setup of `state`, as it was built, under steps of `time_step` (s).
     pub(crate) fn new<C: Cavity, L: ContactLaw, M: Mount>(
         state: &State<C, L, M>,
         time_step: f64,
@@ -41,8 +41,8 @@ impl Setup {
         let mut mount = Digest::default();
         cavities.word(model.compartments.len() as u64);
         mount.word(state.mount.degrees() as u64);
-        for response in state.container_responses() {
-            mount.numbers(&response.to_cols_array());
+        for number in state.mobilities.all().iter().flat_map(Mobility::numbers) {
+            mount.number(number);
         }
         for compartment in &model.compartments {
             add_cavity(&mut cavities, &compartment.cavity);

@@ -86,6 +86,8 @@ pub(crate) trait Space: Copy + Debug + Default + Send + Sync + 'static {
     fn dot(a: Self::Vector, b: Self::Vector) -> f64;
     fn spin_dot(a: Self::Spin, b: Self::Spin) -> f64;
     fn transform(matrix: &DMat3, vector: Self::Vector) -> Self::Vector;
+    /// Vector product of a spin and a vector: velocity at an arm.
+    fn swing(spin: Self::Spin, arm: Self::Vector) -> Self::Vector;
     /// Tangential part of `velocity` - `turning` x `normal`, where `along` is the part of `velocity` along
     /// the normal.
     fn slip(

@@ -80,10 +80,17 @@ impl<C: Cavity, L: ContactLaw> StateView<'_, C, L> {
     /// How a wall stands to a point of the fixed frame.
     #[inline(always)]
     pub(crate) fn wall_point(&self, wall: u32, position: DVec3) -> WallPoint {
-        let compartment = self.compartment_of_wall(wall);
-        compartment.cavity.wall(
-            wall - compartment.first_wall,
-            position - compartment.motion.position,
+        self.compartment_of_wall(wall).wall(wall, position)
+    }
+
+    /// How a particle was accelerated relative to a wall when forces were evaluated last, as far as the
+    /// wall's rotation goes, in m/s^2.
+    #[inline(always)]
+    pub(crate) fn acceleration_at_wall(&self, index: usize, wall: u32) -> DVec3 {
+        self.compartment_of_wall(wall).relative_acceleration(
+            self.position.get(index),
+            self.velocity.get(index),
+            self.acceleration.get(index),
         )
     }
 

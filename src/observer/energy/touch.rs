@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::contact::Partner;
+use crate::mount::Motion;
 use crate::observer::{ContactEvent, StepReport};
 use crate::particle::Particle;
 
@@ -59,7 +60,7 @@ pub(super) const fn class(partner: Partner) -> usize {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Pace {
     pub(super) particles: Vec<Particle>,
-    pub(super) containers: Vec<DVec3>,
+    pub(super) containers: Vec<Motion>,
 }
 
 impl Pace {
@@ -68,18 +69,20 @@ impl Pace {
         self.particles.extend(report.particles());
         self.containers.clear();
         let containers = (0..report.cavities()).map_while(|cavity| report.container(cavity));
-        self.containers
-            .extend(containers.map(|motion| motion.velocity));
+        self.containers.extend(containers);
     }
 
     /// Becomes the mean of itself and `other`.
     pub(super) fn average(&mut self, other: &Self) {
         for (own, other) in self.particles.iter_mut().zip(&other.particles) {
+            own.position = 0.5 * (own.position + other.position);
             own.velocity = 0.5 * (own.velocity + other.velocity);
             own.spin = 0.5 * (own.spin + other.spin);
         }
         for (own, other) in self.containers.iter_mut().zip(&other.containers) {
-            *own = 0.5 * (*own + *other);
+            own.position = 0.5 * (own.position + other.position);
+            own.velocity = 0.5 * (own.velocity + other.velocity);
+            own.angular_velocity = 0.5 * (own.angular_velocity + other.angular_velocity);
         }
     }
 
@@ -93,7 +96,12 @@ impl Pace {
                 let turning = turning + other.spin * other.radius;
                 (other.velocity, turning, first.spin - other.spin)
             }
-            Partner::Wall(_) => (self.containers[touch.cavity], turning, first.spin),
+            Partner::Wall(_) => {
+                let container = &self.containers[touch.cavity];
+                let point = first.position - touch.normal * first.radius;
+                let spin = first.spin - container.angular_velocity;
+                (container.velocity_at(point), turning, spin)
+            }
         };
         let surface = first.velocity - second - turning.cross(touch.normal);
         [surface, spin]

@@ -106,6 +106,11 @@ impl Space for Plane {
     }
 
     #[inline(always)]
+    fn swing(spin: f64, arm: DVec2) -> DVec2 {
+        arm.perp() * spin
+    }
+
+    #[inline(always)]
     fn slip(normal: DVec2, velocity: DVec2, _along: f64, turning: f64) -> f64 {
         normal.perp_dot(velocity) - turning
     }

@@ -104,6 +104,11 @@ impl Space for Volume {
     }
 
     #[inline(always)]
+    fn swing(spin: DVec3, arm: DVec3) -> DVec3 {
+        spin.cross(arm)
+    }
+
+    #[inline(always)]
     fn slip(normal: DVec3, velocity: DVec3, along: f64, turning: DVec3) -> DVec3 {
         velocity - normal * along - turning.cross(normal)
     }
