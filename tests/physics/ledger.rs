@@ -371,10 +371,7 @@ fn steps_report_the_impulse_on_the_container_also_within_a_drive() {
     for number in 0..200 {
         let velocity = if number % 20 < 10 { 0.4 } else { -0.4 };
         place += velocity * 7e-4;
-        let end = Motion {
-            position: DVec3::X * place,
-            velocity: DVec3::X * velocity,
-        };
+        let end = Motion::at(DVec3::X * place, DVec3::X * velocity);
         let mut impulses = Impulses::default();
         let reaction = damper.drive_watched(end, 7e-4, &mut impulses).unwrap();
         assert!((impulses.0 - reaction.impulse).length() < 1e-15);
