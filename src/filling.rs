@@ -106,7 +106,8 @@ impl Filling {
         self
     }
 
-    /// Starts from where `down` (of any length) points to, instead of from the low end of y.
+    /// Starts from where `down` (of any length, container's frame) points to, instead of from the low end of
+    /// y. In a container that stands turned that is `orientation.inverse() * gravity`.
     pub const fn down(mut self, down: DVec3) -> Self {
         self.down = down;
         self

@@ -53,7 +53,7 @@
 //! | contact law | [`ContactLaw`]: [`ForceLaw`] or [`ImpulseLaw`] | [`HertzTsuji`] (the paper's strict law) and [`HertzMindlin`] (a tangential spring besides) give forces; [`RestitutionImpulse`] (the paper's approximate law, for coarse steps) gives impulses |
 //! | contact detector | [`Detector`] | [`AllPairs`], [`CellGrid`] (the paper's cellular automaton), [`LinkedCells`]; [`Skin`] makes any of them last |
 //! | integrator | [`Integrator`] | [`VelocityVerlet`], [`RungeKutta4`] (the paper's) |
-//! | mount | [`Mount`] | [`SingleDof`] (the paper's oscillator), [`Driven`] (by a host), [`Prescribed`] |
+//! | mount | [`Mount`] | [`SingleDof`] (the paper's oscillator), [`RigidBody`] (free to move and turn), [`Driven`] (by a host), [`Shaker`], [`Prescribed`] |
 //! | cavity | [`Cavity`] | [`Slot`] (the paper's) and [`Disc`](cavity::Disc) in the plane, [`Cuboid`], [`Cylinder`](cavity::Cylinder), [`Sphere`](cavity::Sphere); [`Composite`](cavity::Composite)s of [`Part`](cavity::Part)s at any angle, with obstacles |
 //!
 //! Around them: [`Materials`] and their pairs, [`Filling`], [`excitation`]s of an oscillator,
@@ -73,8 +73,8 @@
 //!
 //! # Units, frames and signs
 //!
-//! SI units and `f64` throughout; [`glam`] vectors. Particles and forces are in the fixed report, walls
-//! in the container's, which moves without turning. y points up. An overlap is positive when bodies
+//! SI units and `f64` throughout; [`glam`] vectors. Particles and forces are in the fixed frame, walls
+//! in the container's, which moves as a rigid body. y points up. An overlap is positive when bodies
 //! touch; a reaction is the force of the particles *on* the container.
 //!
 //! # Features

@@ -41,6 +41,60 @@
 //! - **Several cavities, or a structure with equations of its own**: a [`Mount`](crate::Mount) of your
 //!   own is solved together with the particles, without any coupling interval; see `examples/beam.rs`.
 //!
+//! # A body that turns
+//!
+//! Its [`Motion`](crate::Motion) has an orientation and an angular velocity besides
+//! ([`turned`](crate::Motion::turned), in the plane [`turned_in_plane`](crate::Motion::turned_in_plane)), and
+//! the reaction has an [angular impulse](crate::Reaction::angular_impulse), about where the container's origin
+//! is at the end of the interval. A body turns about its centre of mass: that is where the angular impulse has
+//! to be moved to. Here a box flies freely in the plane, whose container has its origin at a corner:
+//!
+//! ```
+//! use particle_damper::glam::{DVec3, dvec3};
+//! use particle_damper::{Damper, Driven, Filling, Material, Motion, Particle, RestitutionImpulse, Slot};
+//!
+//! let cavity = Slot::new(0.04, 0.03)?;
+//! let (mass, inertia) = (0.1, 2e-5); // kg, kg m^2
+//! let to_corner = dvec3(-0.02, -0.015, 0.0);
+//! let corner = |body: Motion| {
+//!     let corner = body.to_fixed(to_corner);
+//!     Motion::at(corner, body.velocity_at(corner)).turned(body.orientation, body.angular_velocity)
+//! };
+//! let (mut place, mut velocity, mut angle, mut rate) = (DVec3::ZERO, DVec3::Y, 0.0, 5.0);
+//! let mut body = Motion::at(place, velocity).turned_in_plane(angle, rate);
+//!
+//! let grains = Filling::new(1).with(20, Particle::new(3e-3, 2e-4)?);
+//! let mut damper = Damper::builder(cavity, RestitutionImpulse::new(Material::acrylic()))
+//!     .mount(Driven::at(corner(body)))
+//!     .particles(grains.fill(&cavity)?)
+//!     .time_step(1e-4)
+//!     .build()?;
+//! let interval = 1e-3;
+//! for _ in 0..200 {
+//!     velocity += DVec3::NEG_Y * 9.81 * interval;
+//!     place += velocity * interval;
+//!     angle += rate * interval;
+//!     body = Motion::at(place, velocity).turned_in_plane(angle, rate);
+//!     let reaction = damper.drive(corner(body), interval)?;
+//!     let arm = corner(body).position - place;
+//!     velocity += reaction.impulse / mass;
+//!     rate += (reaction.angular_impulse + arm.cross(reaction.impulse)).z / inertia;
+//! }
+//! assert!(rate.abs() < 5.0); // grains take part of the spin over
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! - Particles are given in the container's frame, wherever it stands; their velocities, and all forces,
+//!   torques and reactions, are in the fixed frame. [`Filling::down`](crate::Filling::down) is a direction of
+//!   the container: `orientation.inverse() * gravity`.
+//! - Over an interval the container turns steadily, but for what both ends leave open: many revolutions pass,
+//!   as long as the angular velocities at the ends tell of them. A step in which a wall would sweep over
+//!   particles is an error.
+//! - What was said of masses below holds for moments of inertia as well.
+//! - A [`Mount`](crate::Mount) of your own turns containers by its coordinates, and feels
+//!   [torques](crate::Load). [`RigidBody`](crate::RigidBody) is the free body in space or in the plane, solved
+//!   together with the bed. `examples/rapier-host` hangs a box on a ball joint.
+//!
 //! # A host lighter than its bed
 //! The loop above moves through an interval with the impulse of the one before. Particles of mass m that
 //! ride along answer an acceleration with -m times it, so that a structure of mass M (whatever moves with

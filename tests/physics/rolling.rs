@@ -104,3 +104,31 @@ fn a_sphere_stays_or_rolls_under_the_strict_law_with_a_tangential_spring() {
 fn a_sphere_stays_or_rolls_under_the_impulse_law() {
     holds_on_an_incline(&RestitutionImpulse::new(material()), 1e-4, 0.01);
 }
+
+/// A ball alone in the second cavity: its number among the cavities was taken for that of a partner, and a
+/// step panicked.
+#[test]
+fn a_lone_ball_of_the_second_cavity_is_slowed_down() {
+    let ball = Particle::new(RADIUS, MASS)
+        .unwrap()
+        .at(dvec3(0.05, RADIUS, 0.0))
+        .moving(DVec3::X * 0.3)
+        .spinning(DVec3::NEG_Z * 0.3 / RADIUS)
+        .in_cavity(1);
+    let slot = Slot::new(10.0, 0.1).unwrap();
+    let mut damper = Damper::builder(slot, RestitutionImpulse::new(material()))
+        .another_cavity(slot)
+        .particles([ball])
+        .time_step(1e-4)
+        .build()
+        .unwrap();
+    for _ in 0..1000 {
+        damper.step().unwrap();
+    }
+    let expected = 0.3 + theory(0.0) * damper.time();
+    let speed = damper.particle(0).unwrap().velocity.x;
+    assert!(
+        (speed - expected).abs() < 5e-3 * expected,
+        "{speed} for {expected} m/s"
+    );
+}
