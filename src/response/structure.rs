@@ -66,7 +66,7 @@ impl Drive {
 ///         Ok(Shaking(drive))
 ///     }
 ///     fn watched(&self, report: &StepReport<'_>) -> Option<f64> {
-///         report.load(0).map(|load| load.y)
+///         report.load(0).map(|load| load.force.y)
 ///     }
 ///     fn unit(&self, _drive: Drive) -> f64 {
 ///         0.02 * 9.81
@@ -156,7 +156,7 @@ enum Watched {
 /// use particle_damper::glam::DVec3;
 /// use particle_damper::excitation::{Harmonic, Signal};
 /// use particle_damper::response::{Excited, Over};
-/// use particle_damper::{Motion, Mount, Material, ResponseCurve, RestitutionImpulse};
+/// use particle_damper::{Load, Material, Motion, Mount, ResponseCurve, RestitutionImpulse};
 ///
 /// struct Two(Harmonic);
 ///
@@ -167,11 +167,11 @@ enum Watched {
 ///     fn motion(&self, _time: f64, x: &[f64], v: &[f64], _cavity: usize) -> Motion {
 ///         Motion::at(DVec3::Y * x[1], DVec3::Y * v[1])
 ///     }
-///     fn accelerate(&self, time: f64, x: &[f64], v: &[f64], loads: &[DVec3], a: &mut [f64]) {
+///     fn accelerate(&self, time: f64, x: &[f64], v: &[f64], loads: &[Load], a: &mut [f64]) {
 ///         let (k, c) = (200.0, 0.1);
 ///         let [ground, between] = [k * x[0] + c * v[0], k * (x[1] - x[0]) + c * (v[1] - v[0])];
 ///         a[0] = (self.0.value(time) - ground + between) / 0.1;
-///         a[1] = (loads[0].y - between) / 0.1;
+///         a[1] = (loads[0].force.y - between) / 0.1;
 ///     }
 ///     fn highest_frequency(&self) -> f64 {
 ///         11.52

@@ -7,8 +7,8 @@ use particle_damper::excitation::{Harmonic, Signal};
 use particle_damper::glam::DVec3;
 use particle_damper::response::{Excited, OnBase, Over, Point, Response, ResponseError};
 use particle_damper::{
-    Detector, Integrator, Material, Motion, Mount, ResponseCurve, RestitutionImpulse, RungeKutta4,
-    SingleDof, Slot,
+    Detector, Integrator, Load, Material, Motion, Mount, ResponseCurve, RestitutionImpulse,
+    RungeKutta4, SingleDof, Slot,
 };
 
 fn curve() -> ResponseCurve<RestitutionImpulse> {
@@ -64,11 +64,11 @@ impl Mount for Two {
     fn motion(&self, _time: f64, x: &[f64], v: &[f64], cavity: usize) -> Motion {
         Motion::at(DVec3::Y * x[cavity], DVec3::Y * v[cavity])
     }
-    fn accelerate(&self, time: f64, x: &[f64], v: &[f64], loads: &[DVec3], a: &mut [f64]) {
+    fn accelerate(&self, time: f64, x: &[f64], v: &[f64], loads: &[Load], a: &mut [f64]) {
         let ground = STIFFNESS * x[0] + DAMPING * v[0];
         let between = STIFFNESS * (x[1] - x[0]) + DAMPING * (v[1] - v[0]);
-        a[0] = (self.0.value(time) + loads[0].y - ground + between) / MASS;
-        a[1] = (loads[1].y - between) / MASS;
+        a[0] = (self.0.value(time) + loads[0].force.y - ground + between) / MASS;
+        a[1] = (loads[1].force.y - between) / MASS;
     }
     fn highest_frequency(&self) -> f64 {
         1.618_034 * (STIFFNESS / MASS).sqrt() / TAU
