@@ -2,7 +2,8 @@
 
 use particle_damper::glam::{DQuat, DVec3};
 use particle_damper::{
-    ContactLaw, HertzMindlin, HertzTsuji, Interaction, Material, Particle, RestitutionImpulse,
+    Cavity, ContactLaw, HertzMindlin, HertzTsuji, Interaction, Material, Motion, Particle,
+    Prescribed, RestitutionImpulse,
 };
 
 #[path = "rotation/conserved.rs"]
@@ -31,6 +32,14 @@ fn mindlin(friction: f64) -> HertzMindlin {
 
 fn impulses(friction: f64) -> RestitutionImpulse {
     RestitutionImpulse::new(material(0.6, friction))
+}
+
+/// A cavity of any kind, and a motion of any kind: one type for all tests, which spares compiling.
+type Room<'a> = &'a dyn Cavity;
+type Moved = Prescribed<Box<dyn Fn(f64) -> Motion>>;
+
+fn moved(motion: impl Fn(f64) -> Motion + 'static) -> Moved {
+    Prescribed(Box::new(motion))
 }
 
 /// Rotation vectors of some size.

@@ -1,17 +1,16 @@
 //! The same seen from elsewhere is the same.
 
-use particle_damper::cavity::{Cavity, Cylinder, Disc, Sphere};
+use particle_damper::cavity::{Cylinder, Disc, Sphere};
 use particle_damper::glam::{DQuat, DVec3, dvec3};
 use particle_damper::{
-    AllPairs, CellGrid, Cuboid, Damper, Filling, LinkedCells, Motion, Particle, Prescribed, Skin,
-    Slot,
+    AllPairs, CellGrid, Cuboid, Damper, Driven, Filling, LinkedCells, Motion, Particle, Skin, Slot,
 };
 use proptest::prelude::*;
 
 use super::*;
 
 /// A bed of unlike grains that moves about, in the cavity's frame.
-fn lively<C: Cavity>(cavity: &C, count: usize) -> Vec<Particle> {
+fn lively(cavity: Room<'_>, count: usize) -> Vec<Particle> {
     let filling = Filling::new(3)
         .with(count, Particle::new(3e-3, 2e-4).unwrap())
         .with(count / 2, Particle::new(2e-3, 1e-4).unwrap());
@@ -27,24 +26,19 @@ fn lively<C: Cavity>(cavity: &C, count: usize) -> Vec<Particle> {
 }
 
 /// A tilted box under gravity is a box under tilted gravity.
-fn tilts<C: Cavity + Clone, L: ContactLaw + Clone>(
-    cavity: &C,
-    law: &L,
-    time_step: f64,
-    orientation: DQuat,
-) {
+fn tilts<L: ContactLaw + Clone>(cavity: Room<'_>, law: &L, time_step: f64, orientation: DQuat) {
     let gravity = dvec3(0.0, -9.81, 0.0);
     let place = dvec3(0.3, -0.2, if cavity.is_planar() { 0.0 } else { 0.1 });
     let bed = lively(cavity, 8);
-    let mut straight = Damper::builder(cavity.clone(), law.clone())
+    let mut straight = Damper::builder(cavity, law.clone())
         .particles(bed.clone())
         .gravity(orientation.inverse() * gravity)
         .time_step(time_step)
         .build()
         .unwrap();
     let stand = Motion::at(place, DVec3::ZERO).turned(orientation, DVec3::ZERO);
-    let mut tilted = Damper::builder(cavity.clone(), law.clone())
-        .mount(Prescribed(move |_: f64| stand))
+    let mut tilted = Damper::builder(cavity, law.clone())
+        .mount(Driven::at(stand))
         .particles(turned(&bed, orientation))
         .gravity(gravity)
         .time_step(time_step)
@@ -67,7 +61,7 @@ fn tilts<C: Cavity + Clone, L: ContactLaw + Clone>(
     assert!(off.length() < 1e-6 * size);
 }
 
-fn tilts_under_all_laws<C: Cavity + Clone>(cavity: &C, orientation: DQuat) {
+fn tilts_under_all_laws(cavity: Room<'_>, orientation: DQuat) {
     tilts(cavity, &tsuji(0.4), 2e-5, orientation);
     tilts(cavity, &mindlin(0.4), 2e-5, orientation);
     tilts(cavity, &impulses(0.4), 2e-4, orientation);
@@ -121,8 +115,8 @@ proptest! {
         macro_rules! of {
             ($law:expr) => {
                 &|motion, bed: [Particle; 2]| {
-                    Damper::builder(cavity, $law)
-                        .mount(Prescribed(move |_: f64| motion))
+                    Damper::builder(&cavity as Room<'_>, $law)
+                        .mount(Driven::at(motion))
                         .particles(bed)
                         .initial_overlap(0.1)
                         .gravity(DVec3::ZERO)
@@ -155,12 +149,12 @@ fn wild(t: f64) -> Motion {
 #[test]
 fn detectors_agree_to_the_bit_in_a_container_that_turns() {
     fn run<L: ContactLaw + Clone>(law: &L, time_step: f64) {
-        let cavity = Cuboid::new(dvec3(0.03, 0.03, 0.03)).unwrap();
-        let bed = turned(&lively(&cavity, 20), wild(0.0).orientation);
+        let cavity: Room<'_> = &Cuboid::new(dvec3(0.03, 0.03, 0.03)).unwrap();
+        let bed = turned(&lively(cavity, 20), wild(0.0).orientation);
         macro_rules! with {
             ($detector:expr) => {{
                 let mut damper = Damper::builder(cavity, law.clone())
-                    .mount(Prescribed(wild))
+                    .mount(moved(wild))
                     .detector($detector)
                     .particles(bed.clone())
                     .time_step(time_step)
@@ -189,19 +183,19 @@ fn detectors_agree_to_the_bit_in_a_container_that_turns() {
 #[test]
 fn a_smooth_drum_that_turns_is_a_drum_at_rest() {
     fn run<L: ContactLaw + Clone>(law: &L, time_step: f64) {
-        let cavity = Cylinder::new(0.015, 0.03).unwrap();
+        let cavity: Room<'_> = &Cylinder::new(0.015, 0.03).unwrap();
         let turn = |t: f64| {
             let (sine, cosine) = (40.0 * t).sin_cos();
             Motion::default().turned(rotation([0.0, 0.7 * sine, 0.0]), DVec3::Y * 28.0 * cosine)
         };
-        let bed = lively(&cavity, 10);
+        let bed = lively(cavity, 10);
         let mut still = Damper::builder(cavity, law.clone())
             .particles(bed.clone())
             .time_step(time_step)
             .build()
             .unwrap();
         let mut turning = Damper::builder(cavity, law.clone())
-            .mount(Prescribed(turn))
+            .mount(moved(turn))
             .particles(bed)
             .time_step(time_step)
             .build()

@@ -7,7 +7,7 @@ use particle_damper::{
 
 use super::*;
 
-type Hosted<L> = Damper<Cuboid, L, Driven, Skin<LinkedCells>>;
+type Hosted<L> = Damper<Box<dyn Cavity>, L, Driven, Skin<LinkedCells>>;
 
 fn swung(t: f64) -> Motion {
     let axis = dvec3(1.0, 0.5, 2.0).normalize();
@@ -23,11 +23,12 @@ fn swung(t: f64) -> Motion {
 }
 
 fn hosted<L: ContactLaw>(law: L, time_step: f64) -> Hosted<L> {
-    let cavity = Cuboid::new(dvec3(0.03, 0.02, 0.03)).unwrap();
+    let cavity: Box<dyn Cavity> = Box::new(Cuboid::new(dvec3(0.03, 0.02, 0.03)).unwrap());
     let grains = Filling::new(2).with(15, Particle::new(3e-3, 0.2e-3).unwrap());
+    let bed = grains.fill(&*cavity).unwrap();
     Damper::builder(cavity, law)
         .mount(Driven::at(swung(0.0)))
-        .particles(grains.fill(&cavity).unwrap())
+        .particles(bed)
         .gravity(DVec3::ZERO)
         .time_step(time_step)
         .build()
@@ -61,7 +62,7 @@ fn reactions_are_what_particles_lost() {
 #[test]
 fn a_turning_damper_is_restored_and_replayed_to_the_bit() {
     fn run<L: ContactLaw + Clone>(law: &L, time_step: f64) {
-        let cavity = Slot::new(0.04, 0.03).unwrap();
+        let cavity: Room<'_> = &Slot::new(0.04, 0.03).unwrap();
         let grains = Filling::new(2).with(12, Particle::new(3e-3, 0.2e-3).unwrap());
         let path = |t: f64| {
             let (sine, cosine) = (50.0 * t).sin_cos();
@@ -71,7 +72,7 @@ fn a_turning_damper_is_restored_and_replayed_to_the_bit() {
         let build = || {
             Damper::builder(cavity, law.clone())
                 .mount(Driven::at(path(0.0)))
-                .particles(grains.fill(&cavity).unwrap())
+                .particles(grains.fill(cavity).unwrap())
                 .time_step(time_step)
                 .build()
                 .unwrap()
@@ -117,7 +118,8 @@ fn orientations_that_cannot_be_are_refused() {
     );
     assert!(error.to_string().contains("turns at"), "{error}");
 
-    let mut flat = Damper::builder(Slot::paper(), tsuji(0.3))
+    let slot = Slot::paper();
+    let mut flat = Damper::builder(&slot as Room<'_>, tsuji(0.3))
         .time_step(1e-4)
         .build()
         .unwrap();
@@ -135,8 +137,9 @@ fn an_angular_velocity_that_is_not_the_rate_of_the_orientation_is_refused() {
     let grain = Particle::new(3e-3, 2e-4)
         .unwrap()
         .at(dvec3(0.05, 0.05, 0.0));
-    let mut damper = Damper::builder(Slot::paper(), law)
-        .mount(particle_damper::Prescribed(slow))
+    let slot = Slot::paper();
+    let mut damper = Damper::builder(&slot as Room<'_>, law)
+        .mount(moved(slow))
         .particles([grain])
         .time_step(1e-4)
         .build()

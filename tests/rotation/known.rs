@@ -2,7 +2,7 @@
 
 use particle_damper::cavity::{Cylinder, Disc};
 use particle_damper::glam::{DVec3, dvec3};
-use particle_damper::{Damper, Motion, Particle, Prescribed, Slot};
+use particle_damper::{Damper, Motion, Particle, Slot};
 
 use super::*;
 
@@ -13,8 +13,8 @@ fn sphere() -> Particle {
     Particle::new(RADIUS, MASS).unwrap()
 }
 
-fn spinning(rate: f64) -> Prescribed<impl Fn(f64) -> Motion + Copy> {
-    Prescribed(move |t: f64| Motion::default().turned_in_plane(rate * t, rate))
+fn spinning(rate: f64) -> Moved {
+    moved(move |t: f64| Motion::default().turned_in_plane(rate * t, rate))
 }
 
 /// Carried around by a drum, a sphere presses on it with m w^2 r.
@@ -27,7 +27,8 @@ fn a_sphere_rides_on_the_wall_of_a_drum() {
             .at(DVec3::X * path)
             .moving(DVec3::Y * rate * path)
             .spinning(DVec3::Z * rate);
-        let mut damper = Damper::builder(Disc::new(drum).unwrap(), law)
+        let room = Disc::new(drum).unwrap();
+        let mut damper = Damper::builder(&room as Room<'_>, law)
             .mount(spinning(rate))
             .particles([start])
             .gravity(DVec3::ZERO)
@@ -84,7 +85,8 @@ fn a_drum_takes_a_sliding_sphere_along_in_the_time_of_theory() {
         let (drum, rate, slow) = (0.05, 20.0, 0.2);
         let path = drum - RADIUS;
         let start = sphere().at(DVec3::X * path).moving(DVec3::Y * slow);
-        let mut damper = Damper::builder(Disc::new(drum).unwrap(), law)
+        let room = Disc::new(drum).unwrap();
+        let mut damper = Damper::builder(&room as Room<'_>, law)
             .mount(spinning(rate))
             .particles([start])
             .gravity(DVec3::ZERO)
@@ -135,14 +137,14 @@ fn a_ball_on_a_turntable_circles_with_two_sevenths() {
     fn run<L: ContactLaw>(law: L, time_step: f64, tolerance: f64) {
         let rate = 10.0;
         let spin = DVec3::Y * rate;
-        let table = Prescribed(move |t: f64| {
-            Motion::default().turned(rotation([0.0, rate * t, 0.0]), spin)
-        });
+        let table =
+            moved(move |t: f64| Motion::default().turned(rotation([0.0, rate * t, 0.0]), spin));
         let (place, velocity) = (dvec3(0.02, RADIUS, 0.01), dvec3(0.02, 0.0, -0.06));
         // It rolls: v - s x r y is the speed of the table beneath it.
         let own = DVec3::Y.cross(velocity - spin.cross(place)) / RADIUS;
         let ball = sphere().at(place).moving(velocity).spinning(own);
-        let mut damper = Damper::builder(Cylinder::new(0.2, 0.05).unwrap(), law)
+        let room = Cylinder::new(0.2, 0.05).unwrap();
+        let mut damper = Damper::builder(&room as Room<'_>, law)
             .mount(table)
             .particles([ball])
             .time_step(time_step)
@@ -185,7 +187,7 @@ fn a_sphere_on_a_plane_that_tips_rolls_as_theory_has_it() {
         let rate = 0.8;
         let width = 4.0;
         // The plane is the floor of a slot, whose origin is its corner.
-        let tipping = Prescribed(move |t: f64| {
+        let tipping = moved(move |t: f64| {
             let turned = Motion::default().turned_in_plane(rate * t, rate);
             let corner = turned.to_fixed(DVec3::NEG_X * 0.5 * width);
             Motion::at(corner, turned.velocity_at(corner)).turned_in_plane(rate * t, rate)
@@ -194,7 +196,8 @@ fn a_sphere_on_a_plane_that_tips_rolls_as_theory_has_it() {
             .at(dvec3(0.5 * width, RADIUS, 0.0))
             .moving(DVec3::NEG_X * rate * RADIUS)
             .spinning(DVec3::Z * rate);
-        let mut damper = Damper::builder(Slot::new(width, 0.5).unwrap(), law)
+        let room = Slot::new(width, 0.5).unwrap();
+        let mut damper = Damper::builder(&room as Room<'_>, law)
             .mount(tipping)
             .particles([start])
             .time_step(time_step)

@@ -38,7 +38,7 @@ fn escaped<C: Cavity, L: ContactLaw, M: Mount>(
             Partner::Wall(wall) => wall,
             Partner::Particle(_) => 0,
         },
-        position: state.particles.position.get(index) - compartment.motion.position,
+        position: compartment.to_local(state.particles.position.get(index)),
         cause: state.cause(),
     }
 }
