@@ -71,7 +71,7 @@ pub(crate) fn rate(vector: DVec3, turning: DVec3) -> DVec3 {
 
 #[cfg(test)]
 mod tests {
-    use glam::dvec3;
+    use glam::{DVec2, dvec2, dvec3};
     use proptest::prelude::*;
 
     use super::*;
@@ -103,9 +103,9 @@ mod tests {
     #[test]
     fn a_rotation_in_the_plane_has_nothing_else() {
         let rotation = exp(dvec3(0.0, 0.0, 2.0));
-        assert_eq!([rotation.x, rotation.y], [0.0; 2]);
+        assert_eq!(dvec2(rotation.x, rotation.y), DVec2::ZERO);
         let vector = log(rotation);
-        assert_eq!([vector.x, vector.y], [0.0; 2]);
+        assert_eq!(vector.truncate(), DVec2::ZERO);
         let turning = angular_velocity(vector, DVec3::Z * 3.0);
         assert_eq!(turning, DVec3::Z * 3.0);
         assert_eq!(rate(vector, turning), DVec3::Z * 3.0);

@@ -20,3 +20,5 @@ mod mixed;
 mod response;
 #[path = "physics/rolling.rs"]
 mod rolling;
+#[path = "physics/rotation.rs"]
+mod rotation;

@@ -42,6 +42,14 @@ struct SolverBody<S: Space> {
     inverse_mass: f64,
 }
 
+/// Bodies and containers as a simultaneous sweep finds them.
+#[derive(Debug, Clone, Default)]
+struct BeforeSweep<S: Space> {
+    bodies: Vec<SolverBody<S>>,
+    containers: Vec<Container<S>>,
+    turning: Vec<TurningContainer<S>>,
+}
+
 /// What the impulses of a step are worked out with.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ImpulseSolver<S: Space> {
@@ -50,11 +58,7 @@ pub(crate) struct ImpulseSolver<S: Space> {
     bodies: Vec<SolverBody<S>>,
     containers: Containers<S>,
     /// Both as a simultaneous sweep found them.
-    before_sweep: (
-        Vec<SolverBody<S>>,
-        Vec<Container<S>>,
-        Vec<TurningContainer<S>>,
-    ),
+    before_sweep: BeforeSweep<S>,
     /// Active contacts: pairs, then walls.
     constraints: Vec<ContactConstraint<S>>,
     /// Of each constraint, what sweeps do not need.

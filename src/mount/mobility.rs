@@ -106,8 +106,10 @@ pub(crate) struct Mobilities {
 impl Mobilities {
     /// Those of a mount in a state.
     pub(crate) fn new<M: Mount>(mount: &M, time: f64, state: [&[f64]; 2], cavities: usize) -> Self {
-        let mut new = Self::default();
-        new.cavities = cavities;
+        let mut new = Self {
+            cavities,
+            ..Self::default()
+        };
         new.update(mount, time, state);
         new
     }

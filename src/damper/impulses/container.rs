@@ -23,6 +23,21 @@ pub(super) struct Container<S: Space> {
     pub(super) origin: DVec3,
 }
 
+impl<S: Space> Container<S> {
+    /// One that moves from `start` to `end` without impulses, while a particle gains the velocity `fall`
+    /// (m/s).
+    fn new(start: &Motion, end: &Motion, fall: DVec3) -> Self {
+        let velocity_gain = fall - (end.velocity - start.velocity);
+        Self {
+            velocity: S::vector(end.velocity),
+            free: S::vector(end.velocity),
+            velocity_gain,
+            speed_gain: velocity_gain.length(),
+            origin: start.position,
+        }
+    }
+}
+
 /// All containers, and what impulses do to them.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Containers<S: Space> {
@@ -137,16 +152,8 @@ impl<S: Space> Containers<S> {
         starts.clear();
         let mut turns = false;
         for (cavity, compartment) in state.model.compartments.iter().enumerate() {
-            let motion = at_end(rates, cavity);
-            let (start, free) = (compartment.motion, motion.velocity);
-            let velocity_gain = state.gravity * time_step - (free - start.velocity);
-            each.push(Container {
-                velocity: S::vector(free),
-                free: S::vector(free),
-                velocity_gain,
-                speed_gain: velocity_gain.length(),
-                origin: start.position,
-            });
+            let (start, motion) = (compartment.motion, at_end(rates, cavity));
+            each.push(Container::new(&start, &motion, state.gravity * time_step));
             turning.push(TurningContainer::new(&start, &motion));
             starts.push(start);
             turns |= compartment.turned || !motion.is_translation();

@@ -15,7 +15,7 @@
 
 use super::constraint::{Change, ContactConstraint};
 use super::container::Containers;
-use super::{ImpulseSolver, SolverBody};
+use super::{BeforeSweep, ImpulseSolver, SolverBody};
 use crate::damper::state::Space;
 
 /// Solves the contact of two particles.
@@ -163,11 +163,19 @@ impl<S: Space> ImpulseSolver<S> {
 
     /// Solves all constraints from the same velocities.
     pub(super) fn sweep_at_once(&mut self) {
-        self.before_sweep.0.clone_from(&self.bodies);
-        self.before_sweep.1.clone_from(&self.containers.each);
-        self.before_sweep.2.clone_from(&self.containers.turning);
+        self.before_sweep.bodies.clone_from(&self.bodies);
+        self.before_sweep
+            .containers
+            .clone_from(&self.containers.each);
+        self.before_sweep
+            .turning
+            .clone_from(&self.containers.turning);
         for number in 0..self.constraints.len() {
-            let (bodies, containers, turning) = &self.before_sweep;
+            let BeforeSweep {
+                bodies,
+                containers,
+                turning,
+            } = &self.before_sweep;
             let constraint = &mut self.constraints[number];
             let [first, second] = constraint.bodies.map(|body| body as usize);
             let first = bodies[first];
