@@ -123,7 +123,7 @@ impl<S: Space> ImpulseSolver<S> {
             + size_of::<RollingConstraint<S>>() * self.rolling.capacity()
             + size_of::<u16>() * self.contact_counts.capacity()
             + size_of::<u32>() * self.coupled.capacity()
-            + size_of::<SolverBody<S>>() * self.before_sweep.0.capacity()
+            + size_of::<SolverBody<S>>() * self.before_sweep.bodies.capacity()
     }
 }
 
