@@ -5,6 +5,8 @@
 //! `-- --help` lists the options, `-- --quick` takes a few points. The picture of the README:
 //! `cp target/response/response.svg examples/pictures/`.
 
+#[path = "support/bends.rs"]
+mod bends;
 #[path = "support/chart.rs"]
 mod chart;
 #[path = "support/choice.rs"]
@@ -71,7 +73,7 @@ struct Options {
     /// Numbers of particles.
     #[arg(long, value_delimiter = ',', default_value = "0,20,40,60")]
     particles: Vec<usize>,
-    /// Frequencies in Hz; unless given 4 to 8, closer near the peaks.
+    /// Frequencies in Hz; unless given 4 to 8, closer where the curves bend.
     #[arg(long, value_delimiter = ',')]
     frequencies: Vec<f64>,
     /// Seeds of the initial fillings.
@@ -83,6 +85,9 @@ struct Options {
     /// Periods averaged.
     #[arg(long, default_value_t = 40)]
     averaged: u32,
+    /// Goes on until the RMS is known to this part of it, as in 0.01, whatever is discarded and averaged.
+    #[arg(long)]
+    half_width: Option<f64>,
     /// A few points and periods.
     #[arg(long)]
     quick: bool,
@@ -93,6 +98,41 @@ struct Options {
 struct Variant {
     law: LawName,
     time_step: f64,
+}
+
+/// One line of the picture.
+#[derive(Debug, Clone, Copy)]
+struct OneLine {
+    variant: usize,
+    particles: usize,
+    seed: u64,
+}
+
+impl OneLine {
+    fn at(self, frequency: f64) -> Point {
+        Point {
+            particles: self.particles,
+            seed: self.seed,
+            amplitude: 0.25,
+            frequency,
+        }
+    }
+
+    /// Its points among `results`, by frequency.
+    fn of(self, results: &[(usize, Response)]) -> Vec<(f64, f64)> {
+        let mine = |(variant, response): &&(usize, Response)| {
+            let Point {
+                particles, seed, ..
+            } = response.point;
+            (*variant, particles, seed) == (self.variant, self.particles, self.seed)
+        };
+        let mine = results.iter().filter(mine);
+        let mut points: Vec<(f64, f64)> = mine
+            .map(|(_, response)| (response.point.frequency, response.rms_zero))
+            .collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points
+    }
 }
 
 impl Options {
@@ -112,44 +152,45 @@ impl Options {
         variants.collect()
     }
 
-    fn frequencies(&self, particles: usize) -> Vec<f64> {
+    fn frequencies(&self) -> Vec<f64> {
         if !self.frequencies.is_empty() {
             return self.frequencies.clone();
         }
         if self.quick {
             return vec![5.0, 5.5, 6.0, 6.5, 7.0];
         }
-        // Hundredths of a hertz. Where the bed rests the curve is smooth, and points take longest.
-        let hundredths: &[u16] = if particles == 0 {
-            &[
-                400, 450, 500, 520, 540, 560, 570, 580, 585, 590, 593, 596, 598, 600, 601, 602,
-                603, 604, 605, 607, 610, 615, 620, 630, 650, 700, 750, 800,
-            ]
-        } else {
-            &[
-                400, 450, 500, 520, 540, 550, 560, 570, 580, 590, 595, 600, 605, 610, 620, 630,
-                650, 700, 750, 800,
-            ]
-        };
-        let hertz = hundredths.iter().map(|&f| f64::from(f) / 100.0);
-        hertz.collect()
+        let tenths = [40, 45, 50, 52, 54, 56, 58, 60, 62, 64, 66, 70, 75, 80];
+        tenths.iter().map(|&f| f64::from(f) / 10.0).collect()
     }
 
-    fn points(&self) -> Vec<Point> {
-        let mut points = Vec::new();
+    /// What makes the lines of `results` smoother. A bed's motion is irregular: what bends on a small scale
+    /// is chance.
+    fn refined(&self, lines: &[OneLine], results: &[(usize, Response)]) -> Vec<(usize, Point)> {
+        if self.quick || !self.frequencies.is_empty() {
+            return Vec::new();
+        }
+        let added = |line: &OneLine| {
+            let shortest = if line.particles == 0 { 0.006 } else { 0.04 };
+            let added = bends::bends(&line.of(results), shortest);
+            let points = added.into_iter().map(|f| (line.variant, line.at(f)));
+            points.collect::<Vec<_>>()
+        };
+        lines.iter().flat_map(added).collect()
+    }
+
+    /// A line for each number of particles, variant and seed.
+    fn lines(&self, variants: usize) -> Vec<OneLine> {
+        let mut lines = Vec::new();
         for &particles in &self.particles {
-            for &seed in &self.seeds {
-                for frequency in self.frequencies(particles) {
-                    points.push(Point {
-                        particles,
-                        seed,
-                        amplitude: 0.25,
-                        frequency,
-                    });
-                }
+            for variant in 0..variants {
+                lines.extend(self.seeds.iter().map(|&seed| OneLine {
+                    variant,
+                    particles,
+                    seed,
+                }));
             }
         }
-        points
+        lines
     }
 
     fn measure(&self, variant: Variant, point: Point) -> Result<Response, Failure> {
@@ -181,6 +222,10 @@ impl Options {
             .time_step(variant.time_step)
             .periods(discarded, if self.quick { 10 } else { self.averaged })
             .contained(variant.law != LawName::Literal && self.detector != DetectorName::PaperGrid);
+        let curve = match self.half_width {
+            Some(half_width) => curve.periods_until(half_width, 1000),
+            None => curve,
+        };
         Ok(curve.measure(point, |_| ControlFlow::Continue(()))?)
     }
 }
@@ -199,11 +244,44 @@ fn main() -> Result<(), Failure> {
     if options.grid.len() != 2 {
         return Err("--grid takes the cells up and across, as in 32x20".into());
     }
-    let (variants, points) = (options.variants(), options.points());
-    let jobs: Vec<(usize, Point)> = (0..variants.len())
-        .flat_map(|variant| points.iter().map(move |&point| (variant, point)))
-        .collect();
+    let variants = options.variants();
+    let lines = options.lines(variants.len());
+    let mut jobs = Vec::new();
+    for line in &lines {
+        let frequencies = options.frequencies().into_iter();
+        jobs.extend(frequencies.map(|f| (line.variant, line.at(f))));
+    }
+    let mut results = Vec::new();
+    while !jobs.is_empty() {
+        measure_all(&options, &variants, &jobs, &mut results)?;
+        jobs = options.refined(&lines, &results);
+    }
 
+    let place = |(variant, response): &(usize, Response)| {
+        let point = response.point;
+        let seed = options.seeds.iter().position(|seed| *seed == point.seed);
+        (*variant, point.particles, seed)
+    };
+    results.sort_by(|a, b| {
+        let frequency = |result: &(usize, Response)| result.1.point.frequency;
+        let first = place(a).cmp(&place(b));
+        first.then(frequency(a).total_cmp(&frequency(b)))
+    });
+    let directory = output::directory("response")?;
+    let rows = results
+        .iter()
+        .map(|(variant, response)| row(&options, variants[*variant], response));
+    output::write_table(&directory.join("response.csv"), COLUMNS, rows)?;
+    draw(&options, &variants, &lines, &results)
+}
+
+/// Measures on all cores.
+fn measure_all(
+    options: &Options,
+    variants: &[Variant],
+    jobs: &[(usize, Point)],
+    results: &mut Vec<(usize, Response)>,
+) -> Result<(), Failure> {
     // Longest first, so that no core waits for another at the end.
     let steps = |job: usize| {
         let (variant, point) = jobs[job];
@@ -212,32 +290,20 @@ fn main() -> Result<(), Failure> {
     let mut order: Vec<usize> = (0..jobs.len()).collect();
     order.sort_by(|a, b| steps(*b).total_cmp(&steps(*a)));
     let bar = progress::bar(order.iter().map(|job| steps(*job) as u64).sum());
-    let mut responses = vec![None; jobs.len()];
     spread::spread(
         &order,
         |job| options.measure(variants[jobs[job].0], jobs[job].1),
         |job, response| {
-            responses[job] = Some(response);
+            results.push((jobs[job].0, response));
             bar.inc(steps(job) as u64);
         },
     )?;
     bar.finish_and_clear();
-    let results: Vec<(usize, Response)> = jobs
-        .iter()
-        .zip(&responses)
-        .filter_map(|(job, response)| Some((job.0, (*response)?)))
-        .collect();
-
-    let directory = output::directory("response")?;
-    let rows = results
-        .iter()
-        .map(|(variant, response)| row(&options, variants[*variant], response));
-    output::write_table(&directory.join("response.csv"), COLUMNS, rows)?;
-    draw(&options, &variants, &results)
+    Ok(())
 }
 
 const COLUMNS: &str = "law,integrator,detector,time_step_s,particles,seed,frequency_hz,\
-    rms_zero,rms_mean,first_harmonic,max_overlap_m,outside";
+    rms_zero,rms_mean,first_harmonic,max_overlap_m,outside,half_width,settled,periods";
 
 fn row(options: &Options, variant: Variant, response: &Response) -> String {
     let Point {
@@ -246,8 +312,10 @@ fn row(options: &Options, variant: Variant, response: &Response) -> String {
         frequency,
         ..
     } = response.point;
+    let widths = response.half_widths;
+    let width = widths.map_or_else(String::new, |widths| format!("{:.6}", widths.rms_zero));
     format!(
-        "{},{},{},{},{particles},{seed},{frequency},{:.6},{:.6},{:.6},{:.4e},{}",
+        "{},{},{},{},{particles},{seed},{frequency},{:.6},{:.6},{:.6},{:.4e},{},{width},{},{}",
         name(&variant.law),
         name(&options.integrator),
         name(&options.detector),
@@ -257,43 +325,41 @@ fn row(options: &Options, variant: Variant, response: &Response) -> String {
         response.first_harmonic,
         response.max_overlap,
         response.outside,
+        response.settled,
+        response.discarded + response.averaged,
     )
 }
 
-/// A line for each variant, number of particles and seed.
+/// All lines in one picture.
 fn draw(
     options: &Options,
     variants: &[Variant],
+    lines: &[OneLine],
     results: &[(usize, Response)],
 ) -> Result<(), Failure> {
-    let mut lines = Vec::new();
-    let lone = options.frequencies(1).len() < 12;
-    for (colour, &particles) in options.particles.iter().enumerate() {
-        for (number, variant) in variants.iter().enumerate() {
-            for (turn, &seed) in options.seeds.iter().enumerate() {
-                let of_line = |(variant, response): &&(usize, Response)| {
-                    let point = response.point;
-                    *variant == number && point.particles == particles && point.seed == seed
-                };
-                let label = format!(
-                    "N = {particles}, {}, {:e} s",
-                    name(&variant.law),
-                    variant.time_step
-                );
-                lines.push(Line {
-                    label: if turn == 0 { label } else { String::new() },
-                    colour,
-                    dash: [0, 8, 4, 2][number.min(3)],
-                    marked: lone,
-                    points: results
-                        .iter()
-                        .filter(of_line)
-                        .map(|(_, response)| (response.point.frequency, response.rms_zero))
-                        .collect(),
-                });
-            }
+    let lone = options.frequencies().len() < 12;
+    let colour = |particles| options.particles.iter().position(|n| *n == particles);
+    let drawn = |line: &OneLine| {
+        let variant = variants[line.variant];
+        let label = format!(
+            "N = {}, {}, {:e} s",
+            line.particles,
+            name(&variant.law),
+            variant.time_step
+        );
+        Line {
+            label: if line.seed == options.seeds[0] {
+                label
+            } else {
+                String::new()
+            },
+            colour: colour(line.particles).unwrap_or_default(),
+            dash: [0, 8, 4, 2][line.variant.min(3)],
+            marked: lone,
+            points: line.of(results),
         }
-    }
+    };
+    let lines: Vec<Line> = lines.iter().map(drawn).collect();
     let all = || lines.iter().flat_map(|line| &line.points);
     let bounds = |of: fn(&(f64, f64)) -> f64| {
         let values = all().map(of);
