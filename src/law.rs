@@ -5,8 +5,6 @@
 //! the contact dynamics solver works out impulses, once a step. Both are a [`ContactLaw`], which is all
 //! that a [`Damper`](crate::Damper) asks for.
 
-pub(crate) use crate::numbers::{at_least, at_most};
-
 use crate::contact::Bodies;
 use crate::error::ValueError;
 use crate::material::MaterialId;

@@ -162,51 +162,64 @@ pub trait Mount {
     fn resume(&mut self, _motions: &[Motion]) {}
 }
 
-impl<M: Mount + ?Sized> Mount for &mut M {
-    fn degrees(&self) -> usize {
-        (**self).degrees()
-    }
+macro_rules! forward_mount {
+    ($reference:ty) => {
+        impl<M: Mount + ?Sized> Mount for $reference {
+            fn degrees(&self) -> usize {
+                (**self).degrees()
+            }
 
-    fn start(&self, coordinates: &mut [f64], velocities: &mut [f64]) {
-        (**self).start(coordinates, velocities);
-    }
+            fn start(&self, coordinates: &mut [f64], velocities: &mut [f64]) {
+                (**self).start(coordinates, velocities);
+            }
 
-    fn motion(&self, time: f64, coordinates: &[f64], velocities: &[f64], cavity: usize) -> Motion {
-        (**self).motion(time, coordinates, velocities, cavity)
-    }
+            fn motion(
+                &self,
+                time: f64,
+                coordinates: &[f64],
+                velocities: &[f64],
+                cavity: usize,
+            ) -> Motion {
+                (**self).motion(time, coordinates, velocities, cavity)
+            }
 
-    fn accelerate(
-        &self,
-        time: f64,
-        coordinates: &[f64],
-        velocities: &[f64],
-        loads: &[Load],
-        accelerations: &mut [f64],
-    ) {
-        (**self).accelerate(time, coordinates, velocities, loads, accelerations);
-    }
+            fn accelerate(
+                &self,
+                time: f64,
+                coordinates: &[f64],
+                velocities: &[f64],
+                loads: &[Load],
+                accelerations: &mut [f64],
+            ) {
+                (**self).accelerate(time, coordinates, velocities, loads, accelerations);
+            }
 
-    fn rebase(&self, coordinates: &mut [f64], velocities: &mut [f64]) {
-        (**self).rebase(coordinates, velocities);
-    }
+            fn rebase(&self, coordinates: &mut [f64], velocities: &mut [f64]) {
+                (**self).rebase(coordinates, velocities);
+            }
 
-    fn energy(&self, time: f64, coordinates: &[f64], velocities: &[f64]) -> MountEnergy {
-        (**self).energy(time, coordinates, velocities)
-    }
+            fn energy(&self, time: f64, coordinates: &[f64], velocities: &[f64]) -> MountEnergy {
+                (**self).energy(time, coordinates, velocities)
+            }
 
-    fn highest_frequency(&self) -> f64 {
-        (**self).highest_frequency()
-    }
+            fn highest_frequency(&self) -> f64 {
+                (**self).highest_frequency()
+            }
 
-    fn shortest_feature(&self) -> f64 {
-        (**self).shortest_feature()
-    }
+            fn shortest_feature(&self) -> f64 {
+                (**self).shortest_feature()
+            }
 
-    fn jump(&self) -> Option<Jump> {
-        (**self).jump()
-    }
+            fn jump(&self) -> Option<Jump> {
+                (**self).jump()
+            }
 
-    fn resume(&mut self, motions: &[Motion]) {
-        (**self).resume(motions);
-    }
+            fn resume(&mut self, motions: &[Motion]) {
+                (**self).resume(motions);
+            }
+        }
+    };
 }
+
+forward_mount!(&mut M);
+forward_mount!(Box<M>);

@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::at_least;
+use crate::numbers::at_least;
 
 use crate::contact::{Bodies, Contact};
 use crate::error::{Bound, ValueError};

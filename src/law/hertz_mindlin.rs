@@ -3,10 +3,11 @@ use glam::DVec3;
 use super::friction::{PART_PER_STEP, Rolling, SLIP_INVERSE_MASS, share};
 use super::normal::{Normal, NormalCoefficients, NormalForce, strict_law};
 use super::turn::turned;
-use super::{ContactLaw, ForceLaw, Forces, LawError, at_least, at_most};
+use super::{ContactLaw, ForceLaw, Forces, LawError};
 use crate::contact::{Bodies, Contact, ContactForce, Onset, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::Materials;
+use crate::numbers::{at_least, at_most};
 
 /// The most that one step may turn the tangential oscillation of a contact at its greatest overlap,
 /// in rad. A lone contact bears 2, several on one particle sqrt 2.

@@ -1,8 +1,9 @@
 use super::friction::{Friction, Grip};
 use super::normal::{Normal, NormalCoefficients, NormalForce, NormalHistory, strict_law};
-use super::{ContactLaw, ForceLaw, Forces, LawError, at_least};
+use super::{ContactLaw, ForceLaw, Forces, LawError};
 use crate::contact::{Bodies, Contact, ContactForce, Onset, Stored};
 use crate::material::Materials;
+use crate::numbers::at_least;
 
 /// The strict law of the paper: Hertz's spring with damping along the normal, sliding friction
 /// across it, no memory.

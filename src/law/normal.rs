@@ -2,12 +2,13 @@
 
 use std::f64::consts::PI;
 
+use super::LawError;
 use super::damping::{Damping, Ending};
 use super::hertz::ElasticImpact;
-use super::{LawError, at_least};
 use crate::contact::{Bodies, Contact, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::{Interaction, Material, MaterialId, Materials};
+use crate::numbers::at_least;
 
 /// The fewest steps to a contact. In a hexagonal packing as compressed as an impact at the reference
 /// speed, the fastest oscillation has sqrt 3 times the frequency of one contact; with four, frequency

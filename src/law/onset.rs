@@ -13,8 +13,8 @@
 
 use super::damping::Ending;
 use super::normal::{Normal, NormalCoefficients, NormalForce};
-use super::{at_least, at_most};
 use crate::contact::{Contact, Onset};
+use crate::numbers::{at_least, at_most};
 
 /// Relative error of an overlap against the way in a step.
 const ROUNDING: f64 = 1e-6;

@@ -4,7 +4,7 @@ use particle_damper::cavity::{Cavity, Cuboid, Slot};
 use particle_damper::excitation::{Excitation, Harmonic};
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::integrator::{Integrator, RungeKutta4, VelocityVerlet};
-use particle_damper::mount::{Motion, SingleDof};
+use particle_damper::mount::{Motion, Mount, SingleDof};
 use particle_damper::{
     AllPairs, Bodies, Contact, ContactForce, ContactLaw, Damper, Detector, DrivenDamper, EitherLaw,
     ForceLaw, Forces, HertzMindlin, HertzTsuji, LawError, Material, Particle, Recorded,
@@ -60,7 +60,7 @@ fn every_part_is_chosen_at_run_time_to_the_same_bits() {
     let [_, integrator] = integrators;
     let either: EitherLaw<HertzMindlin, HertzTsuji> = EitherLaw::Second(law);
     let mut chosen = Damper::builder(cavity, either)
-        .mount(oscillator().excited_by(force))
+        .mount(Box::new(oscillator().excited_by(force)) as Box<dyn Mount>)
         .detectors([detector])
         .integrator(integrator)
         .particles(grains())

@@ -6,8 +6,9 @@ use crate::cavity::Cavity;
 use crate::contact::{ContactForce, HeldForce, WallLoad};
 use crate::damper::neighbours::{Block, NeighbourList};
 use crate::damper::state::{Space, State};
-use crate::law::{ImpulseLaw, at_most};
+use crate::law::ImpulseLaw;
 use crate::mount::Mount;
+use crate::numbers::at_most;
 use crate::step_error::StepError;
 
 impl<S: Space> ImpulseSolver<S> {

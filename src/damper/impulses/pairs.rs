@@ -9,7 +9,8 @@ use super::{ImpulseSolver, SolverBody, SolverStep};
 use crate::cavity::Cavity;
 use crate::damper::neighbours::NeighbourList;
 use crate::damper::state::{Space, StateView};
-use crate::law::{ImpulseLaw, at_least, at_most};
+use crate::law::ImpulseLaw;
+use crate::numbers::{at_least, at_most};
 
 /// How many pairs are side by side at the most.
 const LANES: usize = 32;

@@ -10,8 +10,9 @@ use crate::cavity::Cavity;
 use crate::contact::{HeldForce, Partner};
 use crate::damper::neighbours::{Block, ContactId, NeighbourList};
 use crate::damper::state::{Space, State, StateView};
-use crate::law::{ImpulseLaw, at_least, at_most};
+use crate::law::ImpulseLaw;
 use crate::mount::Mount;
+use crate::numbers::{at_least, at_most};
 
 /// What is to be known of a constraint besides what sweeps need.
 #[derive(Debug, Clone, Copy, Default)]
