@@ -111,6 +111,7 @@ mod contact;
 mod damper;
 pub mod detector;
 mod digest;
+pub mod drop_test;
 mod error;
 pub mod excitation;
 pub mod fields;

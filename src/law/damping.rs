@@ -88,6 +88,16 @@ impl Damping {
         }
     }
 
+    /// The damping number of the same bodies at `ratio` times the impact speed: restitution at other speeds
+    /// follows from it.
+    #[must_use]
+    pub fn at_speed(self, number: f64, ratio: f64) -> f64 {
+        match self {
+            Self::Viscoelastic => number * libm::pow(ratio, 0.2),
+            Self::Tsuji => number,
+        }
+    }
+
     /// What a damping coefficient is multiplied by where the effective mass is `part` of what it was, so
     /// that the damping number stays.
     #[inline]
@@ -230,7 +240,10 @@ mod tests {
             .unwrap();
         let at = |speed: f64| {
             Damping::Viscoelastic
-                .restitution(beta * speed.powf(0.2), Ending::NeverPulling)
+                .restitution(
+                    Damping::Viscoelastic.at_speed(beta, speed),
+                    Ending::NeverPulling,
+                )
                 .unwrap()
         };
         assert_relative_eq!(at(0.1), 0.83077, max_relative = 1e-5);
