@@ -47,6 +47,6 @@ macro_rules! families {
 }
 
 families! {
-    contacts impulses chung_ooi oblique mfix impact_damper inelastic paper_system integrators restitution
+    contacts impulses chung_ooi oblique mfix impact_damper events shortcut inelastic paper_system integrators restitution
     size_ratio energy rest defects
 }

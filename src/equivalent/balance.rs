@@ -1,11 +1,11 @@
 use super::structure::Complex;
-use super::{Effect, Field, Structure};
+use super::{Effect, Field, ModalStructure};
 use crate::error::{Bound, ValueError};
 
 /// The bed's part of the structure's mass beyond which a solution is doubtful.
 const HEAVY: f64 = 0.05;
 /// The third harmonic's part of the motion beyond which it is.
-const NO_SINE: f64 = 0.01;
+const NO_SINE: f64 = 0.02;
 /// Amplitudes at which solutions are sought, evenly over the logarithm; between two of them at most one may
 /// begin.
 const SCAN: usize = 600;
@@ -13,7 +13,7 @@ const SCAN: usize = 600;
 /// A field put on a structure.
 #[derive(Debug, Clone)]
 pub struct EquivalentDamper<F> {
-    structure: Structure,
+    structure: ModalStructure,
     field: F,
 }
 
@@ -38,7 +38,7 @@ pub struct Solution {
 
 impl Solution {
     /// Whether the [limits](super#what-it-is-worth) of the shortcut are passed: a bed above a twentieth of the
-    /// structure's mass, or a third harmonic above a hundredth of the motion.
+    /// structure's mass, or a third harmonic above a fiftieth of the motion.
     #[must_use]
     pub fn doubtful(&self) -> bool {
         self.mass_ratio > HEAVY || self.distortion.is_some_and(|part| part > NO_SINE)
@@ -62,7 +62,7 @@ pub struct BackbonePoint {
 impl<F: Field> EquivalentDamper<F> {
     /// A field on a structure.
     #[must_use]
-    pub const fn new(structure: Structure, field: F) -> Self {
+    pub const fn new(structure: ModalStructure, field: F) -> Self {
         Self { structure, field }
     }
 

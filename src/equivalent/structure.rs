@@ -83,11 +83,11 @@ impl Mode {
 
 /// A linear structure that carries a damper, by its modes.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Structure {
+pub struct ModalStructure {
     modes: Vec<Mode>,
 }
 
-impl Structure {
+impl ModalStructure {
     /// A mass on a spring: its force acts on the mass, and that is what is watched. A base that moves by Y
     /// sin w t is a force of Y (K^2 + (C w)^2)^(1/2).
     ///

@@ -8,6 +8,7 @@ pub(crate) mod chung_ooi;
 pub(crate) mod contacts;
 pub(crate) mod defects;
 pub(crate) mod energy;
+pub(crate) mod events;
 pub(crate) mod impact_damper;
 pub(crate) mod impulses;
 pub(crate) mod inelastic;
@@ -17,6 +18,7 @@ pub(crate) mod oblique;
 pub(crate) mod paper_system;
 pub(crate) mod rest;
 pub(crate) mod restitution;
+pub(crate) mod shortcut;
 pub(crate) mod size_ratio;
 
 use case::Case;
@@ -39,6 +41,8 @@ pub(crate) const FAMILIES: &[Family] = &[
     ("oblique", oblique::cases),
     ("mfix", mfix::cases),
     ("impact_damper", impact_damper::cases),
+    ("events", events::cases),
+    ("shortcut", shortcut::cases),
     ("inelastic", inelastic::cases),
     ("paper_system", paper_system::cases),
     ("integrators", integrators::cases),

@@ -28,8 +28,8 @@ impl Field for Hardening {
     }
 }
 
-fn oscillator(m: f64, c: f64, k: f64) -> Structure {
-    Structure::oscillator(&SingleDof::new(m, c, k).unwrap()).unwrap()
+fn oscillator(m: f64, c: f64, k: f64) -> ModalStructure {
+    ModalStructure::oscillator(&SingleDof::new(m, c, k).unwrap()).unwrap()
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn a_set_of_modes_is_the_chain_that_it_is_of() {
         at_force: 1.0,
         at_watch: 1.0,
     };
-    let structure = Structure::modes([mode(1.0, 1.0), mode(3.0, -1.0)]).unwrap();
+    let structure = ModalStructure::modes([mode(1.0, 1.0), mode(3.0, -1.0)]).unwrap();
     let field = Hardening {
         mass: 0.03,
         fall: 0.0,
@@ -157,7 +157,7 @@ fn a_set_of_modes_is_the_chain_that_it_is_of() {
 #[test]
 fn one_ball_on_the_paper_s_oscillator_comes_out_as_is_known() {
     let rms = |m, e, d| {
-        let structure = Structure::oscillator(&SingleDof::paper()).unwrap();
+        let structure = ModalStructure::oscillator(&SingleDof::paper()).unwrap();
         let damper = EquivalentDamper::new(structure, OneBall::new(m, e, d).unwrap());
         let found = damper.solutions(0.25, TAU * 6.0288).unwrap();
         found
