@@ -47,4 +47,4 @@ mod structure;
 
 pub use balance::{BackbonePoint, EquivalentDamper, Solution};
 pub use field::{Effect, Field, FieldTable};
-pub use structure::{Mode, ModalStructure};
+pub use structure::{ModalStructure, Mode};

@@ -1,4 +1,5 @@
 use crate::error::{Bound, ValueError};
+use crate::fields::Cell;
 
 /// What a damper does to a box that moves as A sin w t, in the first harmonic of its force.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,6 +22,12 @@ impl Effect {
             viscous_coefficient,
             third_harmonic: None,
         }
+    }
+}
+
+impl From<&Cell> for Effect {
+    fn from(cell: &Cell) -> Self {
+        Self::new(cell.apparent_mass.value, cell.viscous_coefficient.value)
     }
 }
 
@@ -143,6 +150,41 @@ impl FieldTable {
         })
     }
 
+    /// A table of cells that [`EffectiveFields`](crate::EffectiveFields) has measured: one for each of their
+    /// amplitudes at each of their frequencies, in any order.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new), and if a cell is missing or there twice, or beds differ in mass.
+    pub fn from_cells(cells: &[Cell]) -> Result<Self, ValueError> {
+        let axis = |of: fn(&Cell) -> f64| -> Vec<f64> {
+            let mut values: Vec<f64> = cells.iter().map(of).collect();
+            values.sort_by(f64::total_cmp);
+            values.dedup();
+            values
+        };
+        let amplitudes = axis(|cell| cell.amplitude);
+        let frequencies = axis(Cell::angular_frequency);
+        let bed_mass = cells.first().map_or(0.0, |cell| cell.bed_mass);
+        let mut effects = Vec::with_capacity(cells.len());
+        for w in &frequencies {
+            for amplitude in &amplitudes {
+                let here = |cell: &&Cell| {
+                    cell.amplitude.to_bits() == amplitude.to_bits()
+                        && cell.angular_frequency().to_bits() == w.to_bits()
+                };
+                let count = cells.iter().filter(here).count() as f64;
+                let what = "cells at one amplitude and frequency";
+                Bound::Within(1.0, 1.0).check(what, count)?;
+                effects.extend(cells.iter().filter(here).map(Effect::from));
+            }
+        }
+        for cell in cells {
+            let same = Bound::Within(bed_mass, bed_mass);
+            same.check("mass of the bed (kg)", cell.bed_mass)?;
+        }
+        Self::new(bed_mass, &amplitudes, &frequencies, &effects)
+    }
+
     /// The angular frequencies in rad/s.
     #[must_use]
     pub fn angular_frequencies(&self) -> &[f64] {
@@ -244,6 +286,29 @@ mod tests {
         assert!(table.at(f64::NAN, 10.0).is_err());
         let [low, high] = table.amplitudes(9.0);
         assert!(low > high);
+    }
+
+    #[test]
+    fn cells_make_a_table_in_any_order() {
+        let cell = |a: f64, f: f64| Cell::known(a, f, 1.0, a, f);
+        let mut cells = vec![
+            cell(2.0, 5.0),
+            cell(1.0, 5.0),
+            cell(1.0, 4.0),
+            cell(2.0, 4.0),
+        ];
+        let table = FieldTable::from_cells(&cells).unwrap();
+        let effect = table.at(2.0, std::f64::consts::TAU * 5.0).unwrap();
+        assert!((effect.apparent_mass - 2.0).abs() < 1e-12);
+        assert!((effect.viscous_coefficient - 5.0).abs() < 1e-12);
+        let missing = cells.pop().unwrap();
+        assert!(FieldTable::from_cells(&cells).is_err());
+        cells.push(Cell {
+            bed_mass: 2.0,
+            ..missing
+        });
+        assert!(FieldTable::from_cells(&cells).is_err());
+        assert!(FieldTable::from_cells(&[]).is_err());
     }
 
     #[test]

@@ -4,7 +4,7 @@
 use std::f64::consts::{SQRT_2, TAU};
 
 use particle_damper::SingleDof;
-use particle_damper::equivalent::{EquivalentDamper, Solution, ModalStructure};
+use particle_damper::equivalent::{EquivalentDamper, ModalStructure, Solution};
 use particle_damper::impact_damper::OneBall;
 
 use super::Form;
