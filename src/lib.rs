@@ -42,6 +42,7 @@
 //! | write a contact law | [`guide::laws`] |
 //! | write a contact detector | [`guide::detectors`] |
 //! | run a response curve | [`guide::responses`] |
+//! | design a damper | [`guide::design`] |
 //! | know what the numbers are worth | [`guide::trust`] |
 //!
 //! # The parts
@@ -58,7 +59,8 @@
 //!
 //! Around them: [`Materials`] and their pairs, [`Filling`], [`excitation`]s of an oscillator,
 //! [`Observer`]s such as the [`EnergyLedger`], [`Snapshot`]s, [`response`] curves, and [`statistics`] that
-//! say how sure a mean is.
+//! say how sure a mean is. For design: restitution from a [`drop_test`], closed forms of an
+//! [`impact_damper`], and the [`equivalent`] damper.
 //!
 //! # What happens in a step
 //!
