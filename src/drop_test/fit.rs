@@ -136,7 +136,10 @@ impl DropFit {
     /// Root of the mean square of the impacts' residuals, s; zero without any.
     #[must_use]
     pub fn rms_residual(&self) -> f64 {
-        let squares = self.impacts.iter().map(|impact| impact.residual.powi(2));
+        let squares = self
+            .impacts
+            .iter()
+            .map(|impact| impact.residual * impact.residual);
         (squares.sum::<f64>() / self.impacts.len().max(1) as f64).sqrt()
     }
 }

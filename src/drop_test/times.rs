@@ -5,6 +5,13 @@ use super::{DropTest, DropTestError, check_times};
 /// Parameters: time of the first impact, logarithm of the speed after it, damping number.
 const PARAMETERS: usize = 3;
 
+/// Time (s), speed (m/s) and number from what is fitted.
+fn meaning(parameters: &[f64; PARAMETERS], times: &[f64]) -> [f64; PARAMETERS] {
+    let unit = times[1] - times[0];
+    let start = times[0] + unit * parameters[0];
+    [start, libm::exp(parameters[1]), NUMBER * parameters[2]]
+}
+
 impl DropTest {
     /// Fits the times (s) at which impacts begin, in their order, none left out. Whether the first of them is
     /// the first of the ball does not matter.
@@ -29,7 +36,7 @@ impl DropTest {
         let interval = Interval::new(self.confidence, degrees, variance)?;
         let mut fit = DropFit::new(self.bounces, &solution, 2, &interval);
         let unit = times[1] - times[0];
-        let [start, speed, number] = self.from_parameters(&solution.parameters, times);
+        let [start, speed, number] = meaning(&solution.parameters, times);
         let speeds = self.bounces.speeds(number, speed);
         let fitted = self.impacts(start, speed, number);
         let residuals = solution.residuals.iter().map(|residual| residual * unit);
@@ -56,13 +63,6 @@ impl DropTest {
         flights.scan(start, next)
     }
 
-    /// Time (s), speed (m/s) and number from what is fitted.
-    fn from_parameters(&self, parameters: &[f64; PARAMETERS], times: &[f64]) -> [f64; PARAMETERS] {
-        let unit = times[1] - times[0];
-        let start = times[0] + unit * parameters[0];
-        [start, libm::exp(parameters[1]), NUMBER * parameters[2]]
-    }
-
     fn fit_times(&self, times: &[f64]) -> Option<Solution<PARAMETERS>> {
         let (unit, last) = (times[1] - times[0], times.len() - 1);
         // Of a geometric series, what is left without its first term over what is left without its last.
@@ -71,7 +71,7 @@ impl DropTest {
         let flight = (unit - self.contact_duration).max(0.1 * unit);
         let speed = 0.5 * self.bounces.gravity * flight;
         least_squares([0.0, libm::log(speed), number / NUMBER], |parameters| {
-            let [start, speed, number] = self.from_parameters(parameters, times);
+            let [start, speed, number] = meaning(parameters, times);
             let fitted = self.impacts(start, speed, number);
             let measured = times.iter().zip(fitted);
             measured

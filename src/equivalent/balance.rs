@@ -126,7 +126,7 @@ impl<F: Field> EquivalentDamper<F> {
         let moved = structure.to_damper(w) / self.reduction(&effect, w);
         let inertia = w * w * effect.apparent_mass;
         let pushed = moved * Complex::new(inertia, -w * effect.viscous_coefficient);
-        let watched = structure.to_watch(w) + structure.from_damper(w) * pushed;
+        let watched = structure.to_watch(w) + structure.damper_to_watch(w) * pushed;
         let distortion = |third: f64| third * structure.at_damper(3.0 * w).abs() / amplitude;
         Ok(Solution {
             amplitude,

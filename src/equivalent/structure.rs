@@ -152,7 +152,7 @@ impl ModalStructure {
     }
 
     /// Of the point that is watched to a force at the damper.
-    pub(super) fn from_damper(&self, w: f64) -> Complex {
+    pub(super) fn damper_to_watch(&self, w: f64) -> Complex {
         self.receptance(w, |mode| mode.at_watch * mode.at_damper)
     }
 
