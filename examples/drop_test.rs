@@ -12,11 +12,11 @@ mod output;
 
 use std::error::Error;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use chart::{Chart, Line, POINTS};
 use clap::Parser;
-use particle_damper::drop_test::{DropTest, Estimate};
+use particle_damper::drop_test::{DropFit, DropTest, Estimate, HeightFit};
 use particle_damper::glam::dvec3;
 use particle_damper::{
     AllPairs, Bodies, Body, Cuboid, Damper, Damping, HertzTsuji, Material, Materials, Particle,
@@ -136,12 +136,12 @@ fn main() -> Result<(), Failure> {
     let directory = output::directory("drop_test")?;
     let (mut times, mut trace) = simulate(law)?;
     let mut random = noise();
-    times
-        .iter_mut()
-        .for_each(|time| *time += options.time_noise * random());
-    trace
-        .iter_mut()
-        .for_each(|at| at[1] += options.height_noise * random());
+    for time in &mut times {
+        *time += options.time_noise * random();
+    }
+    for at in &mut trace {
+        at[1] += options.height_noise * random();
+    }
     if let Some(path) = &options.times {
         times = column(&read(path)?, 0)?;
     }
@@ -206,7 +206,11 @@ fn main() -> Result<(), Failure> {
         );
     }
 
-    let path = directory.join("heights.svg");
+    draw(&directory.join("heights.svg"), &trace, &heard, &seen)
+}
+
+/// The trace, and what was fitted to it and to the sound.
+fn draw(path: &Path, trace: &[[f64; 2]], heard: &DropFit, seen: &HeightFit) -> Result<(), Failure> {
     let points = trace
         .iter()
         .map(|[time, height]| (*time, 1e3 * height))
@@ -222,9 +226,7 @@ fn main() -> Result<(), Failure> {
         points,
     };
     let last = trace.last().map_or(1.0, |at| at[0]);
-    let top = heights
-        .iter()
-        .fold(0.0_f64, |top, height| top.max(1e3 * height));
+    let top = trace.iter().fold(0.0_f64, |top, at| top.max(1e3 * at[1]));
     Chart {
         title: "A drop test, and what was fitted to it",
         axes: ["time t (s)", "height in the trace (mm)"],
@@ -234,7 +236,7 @@ fn main() -> Result<(), Failure> {
         legend: SeriesLabelPosition::UpperRight,
     }
     .draw(
-        &path,
+        path,
         &[
             line("camera", 0, 0, points),
             line("peaks, fitted", 2, POINTS, peaks.collect()),
@@ -246,6 +248,6 @@ fn main() -> Result<(), Failure> {
             ),
         ],
     )?;
-    output::say_where("picture", &path);
+    output::say_where("picture", path);
     Ok(())
 }

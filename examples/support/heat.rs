@@ -100,7 +100,9 @@ impl HeatMap<'_> {
         } else {
             14
         };
-        map.draw_series([EmptyElement::at((x, y)) + Text::new(label, (way, -8), style)])?;
+        map.draw_series(
+            [EmptyElement::at((x, y)) + Text::new(label.to_owned(), (way, -8), style)],
+        )?;
         let mut bar = ChartBuilder::on(&right)
             .margin(16)
             .margin_top(48)

@@ -173,8 +173,8 @@ mod tests {
 
     /// A trace of a ball let go at 0.2 m, restitution 0.6, at 1 ms, 2 mm above zero.
     fn trace() -> (Vec<f64>, Vec<f64>, Vec<[f64; 2]>) {
-        let (g, floor) = (9.81, 2e-3);
-        let mut impacts = vec![(2.0 * 0.2 / g as f64).sqrt()];
+        let (g, floor) = (9.81_f64, 2e-3);
+        let mut impacts = vec![(2.0 * 0.2 / g).sqrt()];
         let mut speeds = vec![0.6 * (2.0 * g * 0.2_f64).sqrt()];
         for n in 0..8 {
             impacts.push(impacts[n] + 2.0 * speeds[n] / g);
