@@ -23,7 +23,7 @@ use argmin::solver::neldermead::NelderMead;
 use heat::HeatMap;
 use particle_damper::excitation::Harmonic;
 use particle_damper::impact_damper::{ball_clearance, bed_clearance};
-use particle_damper::response::Response;
+use particle_damper::response::{Response, ResponseError};
 use particle_damper::{
     ContactLaw, Damper, Damping, Filling, HertzTsuji, Material, Particle, ResponseCurve,
     RestitutionImpulse, SingleDof, Slot, WallRecorder,
@@ -35,7 +35,7 @@ type Failure = Box<dyn Error + Send + Sync>;
 const MASS: f64 = 0.5;
 const FREQUENCY: f64 = 10.0;
 const DAMPING: f64 = 0.005;
-const FORCE: f64 = 0.2;
+const FORCE: f64 = 0.5;
 /// The room: width and largest height in m; the mass allowed in kg; the grains' density in kg/m^3.
 const WIDTH: f64 = 0.06;
 const ROOM: f64 = 0.1;
@@ -71,10 +71,16 @@ impl Design {
         Ok(Self { fill: most, ..bed })
     }
 
-    /// Height of the grains at rest, as full as disks are in rows, and no less than one of them.
+    /// Height of the grains at rest, in rows that lie in each other's gaps.
     fn bed_height(&self) -> f64 {
-        let area = self.grains as f64 * 2.0 * 3_f64.sqrt() * self.radius.powi(2);
-        (area / WIDTH).max(2.0 * self.radius)
+        let room = WIDTH / (2.0 * self.radius) + 1e-9;
+        let (across, shifted) = (room.floor(), (room - 0.5).floor());
+        let (mut left, mut rows) = (self.grains as f64, 0);
+        while left > 0.0 {
+            left -= if rows % 2 == 0 { across } else { shifted };
+            rows += 1;
+        }
+        self.radius * (2.0 + 3_f64.sqrt() * f64::from(rows - 1))
     }
 
     fn height(&self) -> f64 {
@@ -143,10 +149,16 @@ fn peak<L: ContactLaw + Clone>(
     largest.ok_or_else(|| "no frequencies".into())
 }
 
-/// Amplification of the structure with a design, under the coarse law.
+/// Amplification of the structure with a design, under the coarse law; infinite if the grains do not go in.
 fn cost(design: &Design, effort: Effort) -> Result<f64, Failure> {
     let law = RestitutionImpulse::new(Material::acrylic());
-    Ok(peak(law, 2e-4, design, effort, 1)?.first_harmonic)
+    match peak(law, 2e-4, design, effort, 1) {
+        Ok(response) => Ok(response.first_harmonic),
+        Err(error) if matches!(error.downcast_ref(), Some(ResponseError::Filling { .. })) => {
+            Ok(f64::INFINITY)
+        }
+        Err(error) => Err(error),
+    }
 }
 
 /// Radius over the largest, fill and part of the mass as the optimiser has them.
@@ -232,7 +244,7 @@ fn main() -> Result<(), Failure> {
     let (columns, rows, iterations) = if quick { (3, 3, 3) } else { (8, 9, 25) };
     let effort = Effort {
         frequencies: if quick { 3 } else { 5 },
-        discarded: if quick { 20 } else { 40 },
+        discarded: if quick { 20 } else { 60 },
         averaged: if quick { 10 } else { 20 },
     };
     let even = |[low, high]: [f64; 2], count: u32| -> Vec<f64> {
@@ -350,7 +362,7 @@ fn report(found: &Design, effort: Effort, quick: bool) -> Result<(), Failure> {
         let ratio = |peak: f64| 0.5 / peak;
         let x = response.first_harmonic;
         println!(
-            "  {law}: {x:.2} +- {within:.2} at {:.2} Hz; damping ratio {:.3}, {:.3} to {:.3}{}",
+            "  {law}: {x:.2} +- {within:.2} at {:.2} Hz; damping ratio {:.4}, {:.4} to {:.4}{}",
             response.point.frequency,
             ratio(x),
             ratio(x + within),

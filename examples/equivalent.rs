@@ -28,7 +28,7 @@ use plotters::prelude::SeriesLabelPosition;
 type Failure = Box<dyn Error + Send + Sync>;
 
 const GRAINS: usize = 20;
-const FORCES: [f64; 3] = [0.02, 0.05, 0.12];
+const FORCES: [f64; 3] = [0.04, 0.1, 0.24];
 
 fn law() -> RestitutionImpulse {
     RestitutionImpulse::new(Material::acrylic())
@@ -36,7 +36,7 @@ fn law() -> RestitutionImpulse {
 
 fn oscillator() -> Result<SingleDof, Failure> {
     let (mass, w) = (0.2, TAU * 6.0);
-    Ok(SingleDof::new(mass, 2.0 * 0.005 * mass * w, mass * w * w)?)
+    Ok(SingleDof::new(mass, 2.0 * 0.01 * mass * w, mass * w * w)?)
 }
 
 /// What the bed does in a box that nothing stops.
@@ -79,7 +79,7 @@ fn simulate(force: f64, quick: bool) -> Result<Vec<(f64, f64)>, Failure> {
     };
     let mut points = Vec::new();
     spread::spread(&order, measure, |n, found| {
-        points.push((frequency(n), found))
+        points.push((frequency(n), found));
     })?;
     points.sort_by(|one, other| one.0.total_cmp(&other.0));
     Ok(points)

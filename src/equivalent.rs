@@ -2,7 +2,7 @@
 //!
 //! A damper that is shaken by itself at an amplitude A and an angular frequency w shows an apparent mass and
 //! an equivalent viscous coefficient. Where a [`Field`] knows these, a structure with the damper on it is
-//! solved by harmonic balance in microseconds: A |1 + H_dd D(A)| = |H_df| F, with D = -w^2 m + i w c, H_dd the
+//! solved by harmonic balance within a millisecond: A |1 + H_dd D(A)| = |H_df| F, with D = -w^2 m + i w c, H_dd the
 //! structure's receptance at the damper and H_df that from the force to the damper.
 //! [`EquivalentDamper::solutions`] gives *all* amplitudes that fulfil it, as several may;
 //! [`EquivalentDamper::backbone`] the resonances over amplitude.

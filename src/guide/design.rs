@@ -48,7 +48,7 @@
 //!
 //! **4. What it does.** [`EffectiveFields`](crate::EffectiveFields) measure what a bed does in a box that nothing
 //! stops, over amplitude and frequency; the [`equivalent`](crate::equivalent) damper puts that on any
-//! structure, in microseconds, as long as the bed is light. Many structures, forces and places to put it can be
+//! structure, within a millisecond, as long as the bed is light. Many structures, forces and places to put it can be
 //! tried so. For one structure a response curve does as well: `examples/design.rs` draws the map of the peak
 //! over fill and grain size, and lets an optimiser find the best, both under the coarse law.
 //!
