@@ -1,6 +1,6 @@
 //! From a structure to an order: which grains, how many, and how much room to leave them.
 //!
-//! A plate of 0.5 kg that resonates at 10 Hz may carry 25 g of acrylic spheres in a slot of at most 60 x 100 mm.
+//! A plate of 0.5 kg that resonates at 10 Hz may carry 25 g of acrylic spheres in a slot of at most 100 x 200 mm.
 //! A map of the peak response over fill and grain size shows what there is; an optimiser (Nelder & Mead's, of
 //! the argmin crate) finds the best size, fill and mass from there, both under the coarse law; the strict law has
 //! the last word. `cargo run --release --example design` leaves `target/design/map.csv` and `map.svg`.
@@ -37,13 +37,13 @@ const FREQUENCY: f64 = 10.0;
 const DAMPING: f64 = 0.005;
 const FORCE: f64 = 0.5;
 /// The room: width and largest height in m; the mass allowed in kg; the grains' density in kg/m^3.
-const WIDTH: f64 = 0.06;
-const ROOM: f64 = 0.1;
+const WIDTH: f64 = 0.1;
+const ROOM: f64 = 0.2;
 const ALLOWED: f64 = 0.025;
 const DENSITY: f64 = 1190.0;
 /// Radii in m and fills that are considered.
-const RADII: [f64; 2] = [2.5e-3, 6e-3];
-const FILLS: [f64; 2] = [0.1, 0.9];
+const RADII: [f64; 2] = [3e-3, 7e-3];
+const FILLS: [f64; 2] = [0.3, 0.9];
 
 /// What can be ordered.
 #[derive(Debug, Clone, Copy)]

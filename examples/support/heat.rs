@@ -60,7 +60,8 @@ impl HeatMap<'_> {
             all().fold(f64::MAX, f64::min),
             all().fold(f64::MIN, f64::max),
         );
-        let span = (high - low).max(f64::MIN_POSITIVE);
+        // One value alone has a colour too.
+        let span = (high - low).max(1e-6 * high.abs());
         let (dx, dy) = (half(self.x), half(self.y));
         let [x, y] = [(self.x, dx), (self.y, dy)]
             .map(|(values, half)| values[0] - half..values[values.len() - 1] + half);
