@@ -2,8 +2,8 @@
 
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::{
-    AllPairs, ContactLaw, Damper, Damping, HertzTsuji, Motion, Mount, Particle, RestitutionImpulse,
-    SingleDof, Slot,
+    AllPairs, ContactLaw, Damper, Damping, HertzTsuji, Load, Motion, Mount, Particle,
+    RestitutionImpulse, SingleDof, Slot,
 };
 
 use super::Form;
@@ -117,9 +117,9 @@ impl Mount for Chain {
         Motion::at(DVec3::X * x[cavity], DVec3::X * v[cavity])
     }
 
-    fn accelerate(&self, _time: f64, x: &[f64], _v: &[f64], loads: &[DVec3], a: &mut [f64]) {
+    fn accelerate(&self, _time: f64, x: &[f64], _v: &[f64], loads: &[Load], a: &mut [f64]) {
         for (n, rate) in a.iter_mut().enumerate() {
-            *rate = loads[n].x;
+            *rate = loads[n].force.x;
             if n > 0 {
                 *rate += x[n - 1] - x[n];
             }
