@@ -14,7 +14,8 @@ pub(crate) struct HeatMap<'a> {
     /// Middles of the cells, evenly spaced.
     pub(crate) x: &'a [f64],
     pub(crate) y: &'a [f64],
-    /// One value for each x at the first y, then at the next.
+    /// One value for each x at the first y, then at the next; positive. Colours go by their logarithm, and what
+    /// is not finite is left white.
     pub(crate) values: &'a [f64],
     /// A point to be marked, and what it is.
     pub(crate) mark: (f64, f64, &'a str),
@@ -62,6 +63,7 @@ impl HeatMap<'_> {
         );
         // One value alone has a colour too.
         let span = (high - low).max(1e-6 * high.abs());
+        let shade = |value: f64| colour((value / low).ln() / ((low + span) / low).ln());
         let (dx, dy) = (half(self.x), half(self.y));
         let [x, y] = [(self.x, dx), (self.y, dy)]
             .map(|(values, half)| values[0] - half..values[values.len() - 1] + half);
@@ -89,7 +91,7 @@ impl HeatMap<'_> {
         map.draw_series(cells.map(|(n, value)| {
             let (x, y) = (self.x[n % self.x.len()], self.y[n / self.x.len()]);
             let corners = [(x - dx, y - dy), (x + dx, y + dy)];
-            Rectangle::new(corners, colour((value - low) / span).filled())
+            Rectangle::new(corners, shade(*value).filled())
         }))?;
         let (x, y, label) = self.mark;
         map.draw_series([Circle::new((x, y), 9, WHITE.stroke_width(3))])?;
@@ -119,7 +121,7 @@ impl HeatMap<'_> {
         bar.draw_series((0..100).map(|n| {
             let [from, to] = [0, 1].map(|more| f64::from(n + more) / 100.0);
             let corners = [(0.0, low + span * from), (1.0, low + span * to)];
-            Rectangle::new(corners, colour(from).filled())
+            Rectangle::new(corners, shade(low + span * from).filled())
         }))?;
         area.present()?;
         Ok(())
