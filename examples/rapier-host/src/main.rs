@@ -100,9 +100,7 @@ fn swing(loose: bool) -> Result<(f64, f64), Box<dyn Error>> {
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     let (loose, fixed) = (swing(true)?, swing(false)?);
-    println!(
-        "let go {TILT} rad from hanging down, twisting at {TWIST} rad/s; {DURATION} s later"
-    );
+    println!("let go {TILT} rad from hanging down, twisting at {TWIST} rad/s; {DURATION} s later");
     for (name, (twist, height)) in [("loose", loose), ("fixed", fixed)] {
         println!(
             "  grains {name}: twists at {twist:.3} rad/s, swings {:.2} mm high",
