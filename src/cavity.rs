@@ -46,9 +46,6 @@ impl WallPoint {
 /// space. A [`Composite`] is any of both, put together from [`Part`]s: bodies and obstacles at any angle. A
 /// damper asks the cavity for everything it needs; user code only builds it.
 ///
-/// Contact laws take walls for flat: a contact with a rod as thin as the grain is in truth softer, by up to a
-/// third of its stiffness.
-///
 /// # Implementing
 /// 1. Walls are numbered from 0 to [`walls`](Self::walls) (excluded), and each is a smooth surface: a
 ///    sphere touches a wall at one point at the most. A corner is two walls.

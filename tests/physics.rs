@@ -4,6 +4,8 @@
 
 #[path = "physics/coarse_law.rs"]
 mod coarse_law;
+#[path = "physics/composed.rs"]
+mod composed;
 #[path = "physics/failures.rs"]
 mod failures;
 #[path = "physics/filling.rs"]

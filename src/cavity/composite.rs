@@ -17,22 +17,23 @@ use solid::Placed;
 /// obstacle. The room needs bounds, and some place in it that is free; whether it falls into several rooms
 /// is not looked at.
 ///
-/// A hopper over a bin. While it is filled, its outlet is closed by one part more:
+/// A silo over a bin. While it is filled, its outlet is closed by one part more:
 /// ```
 /// use particle_damper::cavity::{Composite, Part};
 /// use particle_damper::glam::DVec3;
 /// use particle_damper::{Filling, Particle};
 ///
-/// let hopper = Composite::new([
+/// let silo = Composite::new([
 ///     Part::cylinder(0.03).inside().named("bin"),
 ///     Part::plane().named("floor"),
 ///     Part::plane().along(DVec3::NEG_Y).at(DVec3::Y * 0.16).named("lid"),
-///     Part::funnel([0.01, 0.031], 0.03, 2e-3).at(DVec3::Y * 0.06).named("funnel"),
+///     Part::orifice(0.011, 0.031, 2e-3).at(DVec3::Y * 0.06).named("bottom"),
 /// ])?;
-/// let gate = Part::plane().at(DVec3::Y * 0.06);
-/// let closed = Composite::new(hopper.parts().iter().cloned().chain([gate]))?;
+/// let gate = Part::plane().at(DVec3::Y * 0.061);
+/// let closed = Composite::new(silo.parts().iter().cloned().chain([gate]))?;
 /// let bed = Filling::new(1).with(300, Particle::new(2e-3, 8e-5)?).fill(&closed)?;
-/// assert!(bed.iter().all(|particle| particle.position.y > 0.06));
+/// assert!(bed.iter().all(|particle| particle.position.y > 0.061));
+/// assert_eq!(silo.wall_named("bottom"), Some(3));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]

@@ -123,3 +123,5 @@
 //!
 //! # What it leaves out
 //! Particles are spheres, containers are rigid, air and electric charge have no effect, and walls do not wear.
+//! Contact laws take walls for flat: a contact with a rod as thin as the grain is in truth softer, by up to a
+//! third.

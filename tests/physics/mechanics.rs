@@ -13,7 +13,7 @@ pub(super) fn paper_particle() -> Particle {
     Particle::new(3e-3, 0.2e-3).unwrap()
 }
 
-fn acrylic(restitution: f64, friction: f64) -> Material {
+pub(super) fn acrylic(restitution: f64, friction: f64) -> Material {
     let own = Interaction::new(restitution, friction).unwrap();
     Material::new(0.4e9, 0.3, own).unwrap()
 }

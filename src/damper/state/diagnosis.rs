@@ -258,10 +258,11 @@ impl<C: Cavity, L: ContactLaw, M: Mount> State<C, L, M> {
                 continue;
             }
             for index in compartment.indices.clone() {
-                let velocity = self.particles.velocity.get(index) - compartment.motion.velocity;
+                let velocity = self.particles.velocity.get(index);
+                let position = || self.particles.position.get(index);
+                let speed = compartment.relative(position, velocity).length();
                 let off = (self.particles.radius[index] - self.overlap_limit).max(0.0);
                 let limit = (thickness + 2.0 * off) / time_step;
-                let speed = velocity.length();
                 if speed > limit {
                     return Err(StepError::TooFast {
                         particle: self.particles.id[index] as usize,
