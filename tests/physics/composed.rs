@@ -135,6 +135,7 @@ fn half_full() -> [(Composite, usize); 4] {
         .turned(tilt);
     let plate = Part::block(dvec3(0.02, 2e-3, 0.03), 1e-3)
         .turned(tilt)
+        .at(DVec3::NEG_Y * 0.013)
         .named("plate");
     [
         (annulus(), 120),
