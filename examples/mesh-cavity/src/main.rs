@@ -13,7 +13,7 @@ use std::process::ExitCode;
 use mesh::MeshCavity;
 use particle_damper::cavity::Cavity;
 use particle_damper::glam::{DVec3, dvec3};
-use particle_damper::{Damper, Filling, HertzTsuji, Material, Particle};
+use particle_damper::{Damper, Filling, Material, Particle, RestitutionImpulse};
 
 const GRAINS: usize = 150;
 const GRAIN: f64 = 0.2e-3; // kg
@@ -53,11 +53,11 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let bed = Filling::new(1)
         .with(GRAINS, Particle::new(3e-3, GRAIN)?)
         .fill(&cavity)?;
-    let mut damper = Damper::builder(&cavity, HertzTsuji::new(Material::acrylic()))
+    let mut damper = Damper::builder(&cavity, RestitutionImpulse::new(Material::acrylic()))
         .particles(bed)
-        .time_step(2e-5)
+        .time_step(1e-4)
         .build()?;
-    while damper.time() < 0.6 {
+    while damper.time() < 1.5 {
         damper.step()?;
     }
     let mut borne = DVec3::ZERO;
