@@ -6,9 +6,6 @@ use super::{
 /// What may still be to fade, over the mean.
 const NEGLIGIBLE: f64 = 1e-3;
 
-/// Differences that mean nothing, over the mean.
-const ROUNDING: f64 = 1e-12;
-
 /// The mean of a series after its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -97,8 +94,9 @@ fn still_to_fade(series: &[f64]) -> Option<f64> {
         let deviation = before / (1.0 - ratio);
         return Some(deviation * (1.0 + ratio + ratio * ratio) / 3.0);
     }
-    let rounding = ROUNDING * mean(series).abs();
-    (before + after <= rounding).then_some(after)
+    // Beats and rounding: no trend, and too little to look for one.
+    let left = before + after;
+    (left <= NEGLIGIBLE * mean(series).abs()).then_some(left)
 }
 
 #[cfg(test)]
@@ -132,6 +130,16 @@ mod tests {
             assert!(!short.settled, "{rate}: {short:?}");
         }
         assert!(steady_state(&[0.3; 8], 0.95).unwrap().interval.half_width <= 0.0);
+    }
+
+    /// A start that beats against the steady motion, when little of it is left.
+    #[test]
+    fn the_last_of_a_beat_does_not_count() {
+        let beat = |n: i32| 3.0 + 1e-5 * (-0.05 * f64::from(n)).exp() * (0.4 * f64::from(n)).sin();
+        for count in 20..60 {
+            let series: Vec<f64> = (0..count).map(beat).collect();
+            assert!(steady_state(&series, 0.95).unwrap().settled, "{count}");
+        }
     }
 
     #[test]
