@@ -48,5 +48,5 @@ macro_rules! families {
 
 families! {
     contacts impulses chung_ooi oblique mfix impact_damper events shortcut inelastic paper_system integrators restitution
-    size_ratio energy rest defects
+    size_ratio energy rest defects isolated floor_and_lid columns
 }

@@ -1,5 +1,5 @@
 use super::point::{Cycle, Measurement};
-use crate::statistics::{autocorrelation, batch_means, student_t};
+use crate::statistics::{half_width, student_t};
 
 /// Of intervals.
 pub(super) const CONFIDENCE: f64 = 0.95;
@@ -32,13 +32,6 @@ impl Estimate {
     }
 }
 
-/// The half-width for the mean of a series.
-pub(super) fn half_width(series: &[f64]) -> Option<f64> {
-    let batches = batch_means(series, CONFIDENCE).ok()?;
-    let other = autocorrelation(series, CONFIDENCE).ok()?;
-    Some(batches.half_width.max(other.half_width))
-}
-
 /// The mean of a value of cycles over runs that all have some.
 pub(super) fn estimate(runs: &[&Measurement], value: &dyn Fn(&Cycle) -> f64) -> Estimate {
     let count = runs.len() as f64;
@@ -46,7 +39,7 @@ pub(super) fn estimate(runs: &[&Measurement], value: &dyn Fn(&Cycle) -> f64) -> 
     for run in runs {
         let series: Vec<f64> = run.kept().iter().map(value).collect();
         means.push(series.iter().sum::<f64>() / series.len() as f64);
-        let width = half_width(&series);
+        let width = half_width(&series, CONFIDENCE).ok();
         squares = squares.and_then(|sum: f64| width.map(|width| sum + width * width));
     }
     let mean = means.iter().sum::<f64>() / count;

@@ -1,6 +1,6 @@
 use std::ops::ControlFlow;
 
-use super::estimate::{CONFIDENCE, half_width};
+use super::estimate::CONFIDENCE;
 use super::point::{Cycle, Regime};
 use super::settings::{Bed, Periods};
 use super::{EffectiveFields, FieldError, Measurement, Point};
@@ -15,7 +15,7 @@ use crate::law::ContactLaw;
 use crate::mount::Shaker;
 use crate::observer::{BedRegime, EnergyLedger, Harmonics};
 use crate::particle::Particle;
-use crate::statistics::steady_state;
+use crate::statistics::{half_width, steady_state};
 
 /// Steps to a period at the least.
 const LEAST_STEPS: f64 = 40.0;
@@ -218,7 +218,7 @@ impl Measurement {
         let speed = self.point.angular_frequency() * self.point.amplitude;
         let small = SMALL_LOSS * 0.5 * self.bed_mass * speed * speed;
         let narrow = |series: &[f64], scale: f64| {
-            half_width(series).is_some_and(|width| width <= part * scale)
+            half_width(series, CONFIDENCE).is_ok_and(|width| width <= part * scale)
         };
         narrow(&energies, mean.abs().max(small)) && narrow(&masses, self.bed_mass)
     }

@@ -5,14 +5,17 @@ pub(crate) mod case;
 pub(crate) mod setup;
 
 pub(crate) mod chung_ooi;
+pub(crate) mod columns;
 pub(crate) mod contacts;
 pub(crate) mod defects;
 pub(crate) mod energy;
 pub(crate) mod events;
+pub(crate) mod floor_and_lid;
 pub(crate) mod impact_damper;
 pub(crate) mod impulses;
 pub(crate) mod inelastic;
 pub(crate) mod integrators;
+pub(crate) mod isolated;
 pub(crate) mod mfix;
 pub(crate) mod oblique;
 pub(crate) mod paper_system;
@@ -51,4 +54,7 @@ pub(crate) const FAMILIES: &[Family] = &[
     ("energy", energy::cases),
     ("rest", rest::cases),
     ("defects", defects::cases),
+    ("isolated", isolated::cases),
+    ("floor_and_lid", floor_and_lid::cases),
+    ("columns", columns::cases),
 ];
