@@ -60,7 +60,7 @@
 //! Around them: [`Materials`] and their pairs, [`Filling`], [`excitation`]s of an oscillator,
 //! [`Observer`]s such as the [`EnergyLedger`], [`Snapshot`]s, [`response`] curves, and [`statistics`] that
 //! say how sure a mean is. For design: restitution from a [`drop_test`], closed forms of an
-//! [`impact_damper`], and the [`equivalent`] damper.
+//! [`impact_damper`], the effective [`fields`] of a damper by itself, and the [`equivalent`] damper.
 //!
 //! # What happens in a step
 //!

@@ -25,6 +25,8 @@ const FIRST_LOOK: u64 = 40;
 const NEXT_LOOK: f64 = 1.25;
 /// Part of the bed's kinetic energy below which a loss need not be known any better.
 const SMALL_LOSS: f64 = 0.1;
+/// Changes that mean nothing, as parts of the bed's kinetic energy and mass.
+const ROUNDING: f64 = 1e-9;
 
 /// How many steps of at most `longest` (s) make up a period.
 fn steps_per_period(frequency: f64, longest: f64) -> Result<u64, ValueError> {
@@ -59,7 +61,7 @@ where
         let steps = steps_per_period(frequency, self.time_step)?;
         let shaker = Shaker::new(self.axis, Harmonic::new(amplitude, frequency)?)?;
         let mut damper = Damper::builder(self.cavity.clone(), self.law.clone())
-            .particles(self.start(point, shaker.axis())?)
+            .particles(self.particles(point, shaker.axis())?)
             .mount(shaker)
             .detector(self.detector.clone())
             .integrator(self.integrator.clone())
@@ -114,7 +116,7 @@ where
     }
 
     /// The particles at the start.
-    fn start(&self, point: Point, axis: glam::DVec3) -> Result<Vec<Particle>, FieldError> {
+    fn particles(&self, point: Point, axis: glam::DVec3) -> Result<Vec<Particle>, FieldError> {
         let kinds = match &self.bed {
             Bed::Placed(particles) => return Ok(particles.clone()),
             Bed::Filled(kinds) => kinds,
@@ -189,25 +191,38 @@ impl Measurement {
         ]
     }
 
+    /// Kinetic energy of the bed when it moves along, J.
+    fn carried(&self) -> f64 {
+        let speed = self.point.angular_frequency() * self.point.amplitude;
+        0.5 * self.bed_mass * speed * speed
+    }
+
+    /// How many cycles are the start of both, and whether it is over.
+    fn start(&self) -> (usize, bool) {
+        let scales = [self.carried(), self.bed_mass];
+        let states = self.both().into_iter().zip(scales).map(|(series, scale)| {
+            let low = series.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = series.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            if high - low <= ROUNDING * scale {
+                return (0, true);
+            }
+            steady_state(&series, CONFIDENCE)
+                .map_or((0, false), |state| (state.discarded, state.settled))
+        });
+        states.fold((0, true), |all, own| (all.0.max(own.0), all.1 && own.1))
+    }
+
     /// Finds the end of the start, and returns whether there is one.
     fn settle(&mut self) -> bool {
         self.discarded = 0;
-        let states = self.both().map(|series| steady_state(&series, CONFIDENCE));
-        self.settled = states
-            .iter()
-            .all(|state| state.is_ok_and(|own| own.settled));
-        let cuts = states.iter().flatten().map(|state| state.discarded);
-        self.discarded = cuts.max().unwrap_or(0);
+        (self.discarded, self.settled) = self.start();
         self.settled
     }
 
     /// Takes the first `discarded` cycles for the start, and returns whether it is over after them.
     fn settle_after(&mut self, discarded: usize) -> bool {
         self.discarded = discarded;
-        let states = self.both().map(|series| steady_state(&series, CONFIDENCE));
-        self.settled = states
-            .iter()
-            .all(|state| state.is_ok_and(|own| own.settled));
+        (_, self.settled) = self.start();
         self.settled
     }
 
@@ -215,8 +230,7 @@ impl Measurement {
     fn is_within(&self, part: f64) -> bool {
         let [energies, masses] = self.both();
         let mean = energies.iter().sum::<f64>() / energies.len() as f64;
-        let speed = self.point.angular_frequency() * self.point.amplitude;
-        let small = SMALL_LOSS * 0.5 * self.bed_mass * speed * speed;
+        let small = SMALL_LOSS * self.carried();
         let narrow = |series: &[f64], scale: f64| {
             half_width(series, CONFIDENCE).is_ok_and(|width| width <= part * scale)
         };

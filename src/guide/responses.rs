@@ -65,6 +65,37 @@
 //! feature `serde` they can be written, [measured](crate::ResponseCurve::measure) elsewhere one by one, and
 //! their responses gathered: the same bits again. A [line](crate::response::Line) of a sweep goes out as a whole.
 //!
+//! # A damper by itself
+//!
+//! Without a structure, a damper is what it does to a container that is moved to and fro: what it takes per
+//! cycle, and the mass that it seems to have. [`EffectiveFields`](crate::EffectiveFields) measures both over
+//! amplitude and frequency; [`fields`](crate::fields) tells what the numbers mean. One ball, completely
+//! inelastic, takes 4 m A^2 w^2 per cycle in a box of clear travel pi A, the most that it can:
+//!
+//! ```
+//! use std::f64::consts::{PI, TAU};
+//! use std::ops::ControlFlow;
+//! use particle_damper::glam::{DVec3, dvec3};
+//! use particle_damper::{EffectiveFields, Interaction, Material, Particle, RestitutionImpulse, Slot};
+//!
+//! let (amplitude, frequency, radius) = (0.01, 10.0, 3e-3);
+//! let cavity = Slot::new(PI * amplitude + 2.0 * radius, 0.02)?;
+//! let start = dvec3(radius, 0.01, 0.0); // on the wall behind, as fast as it
+//! let ball = Particle::new(radius, 2e-4)?.at(start).moving(DVec3::X * (TAU * frequency * amplitude));
+//! let soft = Material::new(0.4e9, 0.3, Interaction::new(0.0, 0.0)?)?;
+//! let cells = EffectiveFields::new(RestitutionImpulse::new(soft), cavity)
+//!     .along(DVec3::X)
+//!     .gravity(DVec3::ZERO)
+//!     .placed([ball])
+//!     .amplitudes([amplitude])
+//!     .frequencies([frequency])
+//!     .periods(4, 4)
+//!     .run(|_| ControlFlow::Continue(()))?;
+//! assert!((cells[0].normalised_loss() - 8.0).abs() < 0.1);
+//! assert!((cells[0].apparent_mass.value / ball.mass).abs() < 0.05);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # Other experiments
 //!
 //! An experiment of another kind (a sweep, a shock, a record) is a loop over
@@ -92,4 +123,5 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! `examples/response.rs` draws the paper's curves, `examples/beam.rs` loss factors over amplitude.
+//! `examples/response.rs` draws the paper's curves, `examples/effective_field.rs` the loss of a bed over
+//! amplitude and gap, `examples/beam.rs` loss factors over amplitude.

@@ -301,6 +301,8 @@ fn every_point_of_the_papers_figure_11() {
     }
 }
 
+#[path = "response/fields.rs"]
+mod fields;
 #[path = "response/structures.rs"]
 mod structures;
 #[path = "response/surety.rs"]
