@@ -94,7 +94,7 @@ fn draw_map(directory: &Path, quick: bool) -> Result<(), Failure> {
     let best = amplitudes
         .iter()
         .map(|a| (1e3 * a, 1e3 * (pile() + PI * a)));
-    let highest = 1e3 * heights[count - 1];
+    let drawn = 1e3 * heights[0]..1e3 * heights[count - 1];
     let path = directory.join("map.svg");
     Map {
         title: "Energy that 50 weightless grains take per cycle",
@@ -114,7 +114,7 @@ fn draw_map(directory: &Path, quick: bool) -> Result<(), Failure> {
         range: 0.0..8.0,
         line: (
             "clear height = π A: best without rebound",
-            best.filter(|point| point.1 <= highest).collect(),
+            best.filter(|point| drawn.contains(&point.1)).collect(),
         ),
     }
     .draw(&path)?;
@@ -196,7 +196,7 @@ fn draw_ball(directory: &Path) -> Result<(), Failure> {
             "loss, and apparent mass",
         ],
         x: 2.0..18.5,
-        y: -20.0..50.0,
+        y: -2.0..48.0,
         logarithmic: [false, false],
         legend: SeriesLabelPosition::UpperLeft,
     }

@@ -21,7 +21,7 @@ pub(crate) struct Map<'a> {
     pub(crate) line: (&'a str, Vec<(f64, f64)>),
 }
 
-/// From dark to light, as the eye sees it (the ends and middles of "viridis", Smith & van der Walt 2015).
+/// From dark to light, as the eye sees it (six points of "viridis", Smith & van der Walt 2015).
 const COLOURS: [[f64; 3]; 6] = [
     [68.0, 1.0, 84.0],
     [65.0, 68.0, 135.0],
@@ -86,12 +86,18 @@ impl Map<'_> {
             .margin(16)
             .x_label_area_size(52)
             .y_label_area_size(68)
-            .build_cartesian_2d(x.log_scale(), y)?;
+            .build_cartesian_2d(
+                x.log_scale()
+                    .with_key_points(vec![0.5, 1.0, 2.0, 5.0, 10.0]),
+                y,
+            )?;
         chart
             .configure_mesh()
             .disable_mesh()
             .x_desc(self.axes[0])
             .y_desc(self.axes[1])
+            .x_label_formatter(&|value| value.to_string())
+            .y_label_formatter(&|value| value.to_string())
             .axis_desc_style(("sans-serif", 18))
             .label_style(("sans-serif", 15))
             .draw()?;
@@ -130,6 +136,7 @@ impl Map<'_> {
             .configure_mesh()
             .disable_mesh()
             .disable_x_axis()
+            .y_label_formatter(&|value| value.to_string())
             .label_style(("sans-serif", 15))
             .draw()?;
         let step = (self.range.end - self.range.start) / 100.0;

@@ -114,7 +114,7 @@ fn column_cases(cases: &mut Vec<Case>, form: Form) {
         for count in 1..=largest {
             let expected = event_by_event(e, &GAPS[..count], &[1.0; 6], vec![-1.0; count]);
             let name = format!("{count} beads, e {e}");
-            if e == 1.0 {
+            if e > 0.99 {
                 let number = (count * (count + 1) / 2) as f64;
                 let name = format!("{name}: N(N + 1)/2 event by event");
                 cases.push(Case::new(
