@@ -15,7 +15,7 @@ use super::Form;
 use super::case::{Case, Tolerance};
 use super::setup::{acrylic, material};
 
-const BALL: &str = "one ball, two impacts per cycle, closed form; Bapat & Sankar 1985, doi 10.1016/0022-460X(85)90485-7";
+const BALL: &str = "one ball, two impacts per cycle: closed form";
 const COLLECT: &str = "Bannerman et al. 2011, doi 10.1103/PhysRevE.84.011301";
 const ROLLING: &str = "sphere on a shaken floor under Coulomb friction, closed form";
 
