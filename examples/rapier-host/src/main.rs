@@ -107,7 +107,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
             height * 1e3
         );
     }
-    if loose.0 < 0.8 * fixed.0 {
+    if loose.0 < 0.95 * fixed.0 {
         return Ok(ExitCode::SUCCESS);
     }
     eprintln!("the twist should decay faster with grains than with their mass");
