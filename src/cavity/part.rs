@@ -190,7 +190,8 @@ impl Part {
     }
 
     /// Bodies that count as one wall: a grain touches the nearest. It stands in a frame of its own, which
-    /// may be moved and turned in turn. Names of its parts are of no account.
+    /// may be moved and turned in turn. Names of its parts are of no account. Where a grain overlaps with two
+    /// of the bodies, beside their seam, the overlap is that with the one that it is deeper in.
     pub fn union(parts: impl IntoIterator<Item = Self>) -> Self {
         Self::new(Shape::Union(parts.into_iter().collect()))
     }

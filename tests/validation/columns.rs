@@ -10,8 +10,7 @@ use super::Form;
 use super::case::{Case, Tolerance};
 use super::setup::acrylic;
 
-const COLUMN: &str =
-    "column of beads on a wall; Bernu & Mazighi, J. Phys. A 23 (1990) 5745";
+const COLUMN: &str = "column of beads on a wall; Bernu & Mazighi, J. Phys. A 23 (1990) 5745";
 const DIGITS: &str = "Galperin 2003, doi 10.1070/RD2003v008n04ABEH000252";
 const EXACTLY: Tolerance = Tolerance::Absolute(0.0);
 
