@@ -83,8 +83,8 @@
 //!
 //! | feature | adds |
 //! |---|---|
-//! | `serde` | [`Snapshot`]s and [`Recording`]s can be written and read |
-//! | `rayon` | response curves and large beds on all cores |
+//! | `serde` | [`Snapshot`]s, [`Recording`]s, and the points and results of [`response`] curves and [`fields`] can be written and read |
+//! | `rayon` | response curves, fields and large beds on all cores |
 //!
 //! Neither is on by default, and neither changes a bit of any result.
 //!
