@@ -119,6 +119,8 @@ where
 
     /// Does all points, and gives what comes of them in their order.
     #[cfg(not(feature = "rayon"))]
+    // The form with several threads asks for the work of each point.
+    #[allow(clippy::unused_self)]
     fn spread<F>(
         &self,
         points: &[Point],

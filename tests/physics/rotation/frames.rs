@@ -1,6 +1,6 @@
 //! The same seen from elsewhere is the same.
 
-use particle_damper::cavity::{Cylinder, Disc, Sphere};
+use particle_damper::cavity::{Composite, Cylinder, Disc, Part, Sphere};
 use particle_damper::glam::{DQuat, DVec3, dvec3};
 use particle_damper::{
     AllPairs, CellGrid, Cuboid, Damper, Driven, Filling, LinkedCells, Motion, Particle, Skin, Slot,
@@ -78,6 +78,11 @@ proptest! {
         tilts_under_all_laws(&Cuboid::new(dvec3(0.03, 0.02, 0.025)).unwrap(), orientation);
         tilts_under_all_laws(&Cylinder::new(0.015, 0.03).unwrap(), orientation);
         tilts_under_all_laws(&Sphere::new(0.015).unwrap(), orientation);
+        // With a rod askew in it.
+        let rod = Part::capsule(3e-3, 0.02).along(dvec3(1.0, 0.3, 0.2)).at(DVec3::NEG_Y * 0.008);
+        let room = Composite::new([Part::cylinder(0.015).inside(), Part::plane().at(DVec3::NEG_Y * 0.015),
+            Part::plane().along(DVec3::NEG_Y).at(DVec3::Y * 0.015), rod]).unwrap();
+        tilts_under_all_laws(&room, orientation);
     }
 
     /// Forces do not feel that everything moves along as one rigid body.
