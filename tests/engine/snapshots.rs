@@ -98,7 +98,7 @@ fn a_new_process_goes_on_to_the_same_bits() {
     let written = postcard::to_stdvec(&snapshot).unwrap();
     std::fs::write(format!("{path}.postcard"), written).unwrap();
     let status = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "child_process"])
+        .args(["--exact", "snapshots::child_process"])
         .env(HANDED_OVER, path)
         .status()
         .unwrap();
@@ -184,7 +184,7 @@ fn another_version_is_refused() {
     let error = refused(|value| value["version"] = json!(7));
     assert_eq!(
         error.to_string(),
-        "the snapshot has layout 7, this version of the library reads 1"
+        "the snapshot has layout 7, this version of the library reads 2"
     );
 }
 
