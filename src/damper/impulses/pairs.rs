@@ -120,6 +120,7 @@ impl<S: Space> ImpulseSolver<S> {
         let bodies = &bodies[..view.radius.len()];
         let counts = &mut contact_counts[..view.radius.len()];
         let only = view.coefficients.only_pair();
+        let common_gain = containers.common_speed_gain();
         let runs = list.contacts.bodies().chunks(LANES);
         for (pairs, candidates) in runs.zip(list.contacts.candidates().chunks(LANES)) {
             lanes.gather(view, bodies, pairs);
@@ -136,11 +137,10 @@ impl<S: Space> ImpulseSolver<S> {
                     approach: lanes.approach[n],
                     smaller_radius: at_most(view.radius[i], view.radius[j]),
                     inverse_masses: [inverse_mass, inverse_mass * (1.0 + TURNING * lever * lever)],
-                    speed_gain: containers.speed_gain(
-                        view.compartment_of(pair[0]),
-                        || view.position.get(i),
-                        step.time_step,
-                    ),
+                    speed_gain: common_gain.unwrap_or_else(|| {
+                        let cavity = view.compartment_of(pair[0]);
+                        containers.speed_gain(cavity, view.position.get(i), step.time_step)
+                    }),
                 };
                 let place = (pair, lanes.towards[n] * lanes.inverse[n], lever);
                 let other;

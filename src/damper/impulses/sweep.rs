@@ -107,24 +107,31 @@ impl<S: Space> ImpulseSolver<S> {
                     self.solve_turning_wall(number);
                 }
             }
-        } else if number.is_multiple_of(2) {
-            for n in 0..self.coupled.len() {
-                self.solve_coupled(n);
-            }
         } else {
-            for n in (0..self.coupled.len()).rev() {
-                self.solve_coupled(n);
-            }
+            self.sweep_coupled(number.is_multiple_of(2));
         }
     }
 
-    #[inline(always)]
-    fn solve_coupled(&mut self, n: usize) {
-        let number = self.coupled[n] as usize;
-        if number < self.pairs {
-            solve_pair(&mut self.constraints[number], &mut self.bodies);
+    /// The same through the coupled contacts alone.
+    fn sweep_coupled(&mut self, to: bool) {
+        let pair = |number: &u32| (*number as usize) < self.pairs;
+        let pairs = self.coupled.partition_point(pair);
+        if to {
+            for number in &self.coupled[..pairs] {
+                let constraint = &mut self.constraints[*number as usize];
+                solve_pair(constraint, &mut self.bodies);
+            }
+            for n in pairs..self.coupled.len() {
+                self.solve_wall(self.coupled[n] as usize);
+            }
         } else {
-            self.solve_wall(number);
+            for n in (pairs..self.coupled.len()).rev() {
+                self.solve_wall(self.coupled[n] as usize);
+            }
+            for number in self.coupled[..pairs].iter().rev() {
+                let constraint = &mut self.constraints[*number as usize];
+                solve_pair(constraint, &mut self.bodies);
+            }
         }
     }
 

@@ -71,19 +71,22 @@ impl<S: Space> Containers<S> {
         }
     }
 
-    /// Speed (m/s) that a free particle at a point of the fixed frame gains on the container over a step of
-    /// `time_step` (s), if it is carried along.
-    #[inline(always)]
-    pub(super) fn speed_gain(
-        &self,
-        cavity: usize,
-        point: impl Fn() -> DVec3,
-        time_step: f64,
-    ) -> f64 {
+    /// Speed (m/s) that a free particle gains on the container over the step, wherever it is: known if there is
+    /// one container that does not turn.
+    pub(super) fn common_speed_gain(&self) -> Option<f64> {
+        match (&*self.each, &*self.turning) {
+            ([container], []) => Some(container.speed_gain),
+            _ => None,
+        }
+    }
+
+    /// The same for a free particle at a point of the fixed frame over a step of `time_step` (s), if it is
+    /// carried along.
+    pub(super) fn speed_gain(&self, cavity: usize, point: DVec3, time_step: f64) -> f64 {
         if self.turning.is_empty() {
             self.each[cavity].speed_gain
         } else {
-            self.wall_at(cavity, point(), time_step).speed_gain
+            self.wall_at(cavity, point, time_step).speed_gain
         }
     }
 
