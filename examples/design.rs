@@ -5,6 +5,8 @@
 //! the argmin crate) finds the best size, fill and mass from there, both under the coarse law; the strict law has
 //! the last word. `cargo run --release --example design` leaves `target/design/map.csv` and `map.svg`.
 
+#[path = "support/colour.rs"]
+mod colour;
 #[path = "support/heat.rs"]
 mod heat;
 #[path = "support/output.rs"]

@@ -7,6 +7,8 @@
 
 #[path = "support/chart.rs"]
 mod chart;
+#[path = "support/colour.rs"]
+mod colour;
 #[path = "support/map.rs"]
 mod map;
 #[path = "support/output.rs"]

@@ -129,11 +129,13 @@ mod numbers;
 mod observer;
 mod parallel;
 mod particle;
+mod periods;
 mod random;
 pub mod response;
 mod rotation;
 pub mod statistics;
 mod step_error;
+mod tasks;
 
 pub use glam;
 

@@ -5,6 +5,8 @@ use std::path::Path;
 
 use plotters::prelude::*;
 
+use crate::colour::colour;
+
 /// Values over a grid of cells.
 #[derive(Debug)]
 pub(crate) struct HeatMap<'a> {
@@ -22,24 +24,6 @@ pub(crate) struct HeatMap<'a> {
 }
 
 type Failure = Box<dyn Error + Send + Sync>;
-
-/// From dark (0) to light (1), in an order that is one of lightness too.
-fn colour(part: f64) -> RGBColor {
-    const STOPS: [[f64; 3]; 5] = [
-        [68.0, 1.0, 84.0],
-        [59.0, 82.0, 139.0],
-        [33.0, 145.0, 140.0],
-        [94.0, 201.0, 98.0],
-        [253.0, 231.0, 37.0],
-    ];
-    let place = part.clamp(0.0, 1.0) * 4.0;
-    let below = (place.floor() as usize).min(3);
-    let mix = |n: usize| {
-        let (from, to) = (STOPS[below][n], STOPS[below + 1][n]);
-        (from + (to - from) * (place - below as f64)).round() as u8
-    };
-    RGBColor(mix(0), mix(1), mix(2))
-}
 
 /// Half the distance of neighbours.
 fn half(values: &[f64]) -> f64 {

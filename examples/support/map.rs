@@ -6,6 +6,8 @@ use std::path::Path;
 
 use plotters::prelude::*;
 
+use crate::colour::colour;
+
 /// Values over two axes, and lines across them.
 #[derive(Debug)]
 pub(crate) struct Map<'a> {
@@ -20,16 +22,6 @@ pub(crate) struct Map<'a> {
     /// What a line shows, and its points.
     pub(crate) line: (&'a str, Vec<(f64, f64)>),
 }
-
-/// From dark to light, as the eye sees it (six points of "viridis", Smith & van der Walt 2015).
-const COLOURS: [[f64; 3]; 6] = [
-    [68.0, 1.0, 84.0],
-    [65.0, 68.0, 135.0],
-    [42.0, 120.0, 142.0],
-    [34.0, 168.0, 132.0],
-    [122.0, 209.0, 81.0],
-    [253.0, 231.0, 37.0],
-];
 
 /// Borders of cells whose middles are at `values`, which are spaced by equal steps or ratios.
 pub(crate) fn borders(values: &[f64], logarithmic: bool) -> Vec<f64> {
@@ -56,16 +48,6 @@ pub(crate) fn borders(values: &[f64], logarithmic: bool) -> Vec<f64> {
     let mut borders = vec![below(first)];
     borders.extend(values.iter().map(|value| above(*value)));
     borders
-}
-
-fn colour(part: f64) -> RGBColor {
-    let place = part.clamp(0.0, 1.0) * (COLOURS.len() - 1) as f64;
-    let low = (place as usize).min(COLOURS.len() - 2);
-    let mixed = |n: usize| {
-        let [from, to] = [COLOURS[low][n], COLOURS[low + 1][n]];
-        (from + (to - from) * (place - low as f64)).round() as u8
-    };
-    RGBColor(mixed(0), mixed(1), mixed(2))
 }
 
 impl Map<'_> {

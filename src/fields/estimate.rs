@@ -1,8 +1,6 @@
 use super::point::{Cycle, Measurement};
+use crate::periods::CONFIDENCE;
 use crate::statistics::{half_width, student_t};
-
-/// Of intervals.
-pub(super) const CONFIDENCE: f64 = 0.95;
 
 /// A mean over periods and seeds, and how sure it is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

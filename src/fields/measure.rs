@@ -1,8 +1,7 @@
 use std::ops::ControlFlow;
 
-use super::estimate::CONFIDENCE;
 use super::point::{Cycle, Regime};
-use super::settings::{Bed, Periods};
+use super::settings::Bed;
 use super::{EffectiveFields, FieldError, Measurement, Point};
 use crate::cavity::Cavity;
 use crate::damper::Damper;
@@ -15,27 +14,15 @@ use crate::law::ContactLaw;
 use crate::mount::Shaker;
 use crate::observer::{BedRegime, EnergyLedger, Harmonics};
 use crate::particle::Particle;
+use crate::periods::{CONFIDENCE, Looks, Periods, steps_per_period};
 use crate::statistics::{half_width, steady_state};
 
 /// Steps to a period at the least.
 const LEAST_STEPS: f64 = 40.0;
-/// When it is looked first whether a point may end, and how much later each time, as a part of the periods
-/// done: an interval that is looked at after every period is found narrow by chance.
-const FIRST_LOOK: u64 = 40;
-const NEXT_LOOK: f64 = 1.25;
 /// Part of the bed's kinetic energy below which a loss need not be known any better.
 const SMALL_LOSS: f64 = 0.1;
 /// Changes that mean nothing, as parts of the bed's kinetic energy and mass.
 const ROUNDING: f64 = 1e-9;
-
-/// How many steps of at most `longest` (s) make up a period.
-fn steps_per_period(frequency: f64, longest: f64) -> Result<u64, ValueError> {
-    // A hair of tolerance, so that a step that divides the period is taken as it is.
-    let steps = (1.0 / (frequency * longest) * (1.0 - 1e-9)).ceil();
-    // Beyond, steps could no longer be counted exactly.
-    Bound::AtMost(1e12).check("steps per period", steps)?;
-    Ok(steps.max(LEAST_STEPS) as u64)
-}
 
 impl<L, C, D, I> EffectiveFields<L, C, D, I>
 where
@@ -58,7 +45,7 @@ where
         self.check()?;
         let frequency = Bound::Positive.check("frequency (Hz)", point.frequency)?;
         let amplitude = Bound::Positive.check("amplitude (m)", point.amplitude)?;
-        let steps = steps_per_period(frequency, self.time_step)?;
+        let steps = steps_per_period(frequency, self.time_step, LEAST_STEPS)?;
         let shaker = Shaker::new(self.axis, Harmonic::new(amplitude, frequency)?)?;
         let mut damper = Damper::builder(self.cavity.clone(), self.law.clone())
             .particles(self.particles(point, shaker.axis())?)
@@ -79,7 +66,7 @@ where
             max_overlap: 0.0,
         };
         let mut watch = Watch::new(frequency, self.cavity.walls())?;
-        let mut next_look = FIRST_LOOK;
+        let mut looks = Looks::default();
         // The first period opens the accounts.
         for period in 0..=self.periods.most() {
             for _ in 0..steps {
@@ -100,12 +87,11 @@ where
                 return Err(FieldError::Cancelled);
             }
             if let Periods::Until { half_width, .. } = self.periods
-                && period >= next_look
+                && looks.are_due(period)
+                && measurement.settle()
+                && measurement.is_within(half_width)
             {
-                next_look = (period as f64 * NEXT_LOOK) as u64;
-                if measurement.settle() && measurement.is_within(half_width) {
-                    return Ok(measurement);
-                }
+                return Ok(measurement);
             }
         }
         match self.periods {
@@ -235,18 +221,5 @@ impl Measurement {
             half_width(series, CONFIDENCE).is_ok_and(|width| width <= part * scale)
         };
         narrow(&energies, mean.abs().max(small)) && narrow(&masses, self.bed_mass)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn steps_divide_the_period_and_are_no_longer_than_asked() {
-        assert_eq!(steps_per_period(5.0, 1e-4).unwrap(), 2000);
-        assert_eq!(steps_per_period(6.0, 1e-4).unwrap(), 1667);
-        assert_eq!(steps_per_period(1.0, 10.0).unwrap(), 40);
-        assert!(steps_per_period(1.0, 1e-15).is_err());
     }
 }

@@ -5,6 +5,7 @@ use crate::detector::{LinkedCells, Skin};
 use crate::error::{Bound, ValueError};
 use crate::integrator::VelocityVerlet;
 use crate::particle::Particle;
+use crate::periods::Periods;
 
 /// What is in the cavity.
 #[derive(Debug, Clone)]
@@ -13,25 +14,6 @@ pub(super) enum Bed {
     Filled(Vec<(usize, Particle)>),
     /// Particles where they are at the start.
     Placed(Vec<Particle>),
-}
-
-/// How many periods are watched.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Periods {
-    Fixed { discarded: u32, averaged: u32 },
-    Until { half_width: f64, most: u32 },
-}
-
-impl Periods {
-    pub(super) const fn most(self) -> u64 {
-        match self {
-            Self::Fixed {
-                discarded,
-                averaged,
-            } => discarded as u64 + averaged as u64,
-            Self::Until { most, .. } => most as u64,
-        }
-    }
 }
 
 /// What effective fields are measured with, and where.
@@ -89,10 +71,7 @@ impl<L, C> EffectiveFields<L, C> {
             gravity: DVec3::NEG_Y * 9.81,
             bed: Bed::Filled(Vec::new()),
             time_step: 1e-4,
-            periods: Periods::Fixed {
-                discarded: 20,
-                averaged: 40,
-            },
+            periods: Periods::default(),
             amplitudes: Vec::new(),
             frequencies: Vec::new(),
             seeds: vec![1],
@@ -238,19 +217,9 @@ impl<L, C, D, I> EffectiveFields<L, C, D, I> {
     }
 
     pub(super) fn check(&self) -> Result<(), ValueError> {
-        /// Periods at the least that tell whether a point has settled.
-        const LEAST: f64 = 20.0;
         Bound::Positive.check("time step (s)", self.time_step)?;
         Bound::Positive.check("mass of the bed (kg)", self.bed_size().1)?;
-        match self.periods {
-            Periods::Fixed { averaged, .. } => {
-                Bound::AtLeast(1.0).check("periods averaged", f64::from(averaged))?;
-            }
-            Periods::Until { half_width, most } => {
-                Bound::Positive.check("half-width asked for", half_width)?;
-                Bound::AtLeast(LEAST).check("periods at most", f64::from(most))?;
-            }
-        }
+        self.periods.check()?;
         for &amplitude in &self.amplitudes {
             Bound::Positive.check("amplitude (m)", amplitude)?;
         }

@@ -1,16 +1,9 @@
 //! From periods to a response.
 
-use super::curve::Periods;
 use super::period::{Period, Sums};
 use super::point::HalfWidths;
+use crate::periods::{CONFIDENCE, Looks, Periods};
 use crate::statistics::{half_width, steady_state};
-
-/// Of intervals.
-const CONFIDENCE: f64 = 0.95;
-/// When it is looked first whether a point may end, and how much later each time, in periods and as a part
-/// of those done: an interval that is looked at after every period is found narrow by chance.
-const FIRST_LOOK: u64 = 40;
-const NEXT_LOOK: f64 = 1.25;
 
 /// What the averaged periods say, over the structure's unit.
 #[derive(Debug, Clone, Copy)]
@@ -83,7 +76,7 @@ pub(super) struct History {
     unit: f64,
     done: Vec<Sums>,
     total: Sums,
-    next_look: u64,
+    looks: Looks,
 }
 
 impl History {
@@ -93,7 +86,7 @@ impl History {
             unit,
             done: Vec::new(),
             total: Sums::default(),
-            next_look: FIRST_LOOK,
+            looks: Looks::default(),
         }
     }
 
@@ -120,10 +113,9 @@ impl History {
         match self.periods {
             Periods::Fixed { discarded, .. } => last.then(|| self.fixed(discarded as usize)),
             Periods::Until { half_width, .. } => {
-                if done < self.next_look && !last {
+                if !(self.looks.are_due(done) || last) {
                     return None;
                 }
-                self.next_look = (done as f64 * NEXT_LOOK) as u64;
                 let averages = self.so_far();
                 let width = averages.half_widths.map(|widths| widths.rms_mean);
                 let sure = width.is_some_and(|width| width <= half_width * averages.rms_mean);

@@ -7,26 +7,7 @@ use crate::integrator::VelocityVerlet;
 use crate::material::Materials;
 use crate::mount::SingleDof;
 use crate::particle::Particle;
-
-/// How many periods a point takes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Periods {
-    Fixed { discarded: u32, averaged: u32 },
-    Until { half_width: f64, most: u32 },
-}
-
-impl Periods {
-    /// The most that a point may take.
-    pub(super) const fn most(self) -> u64 {
-        match self {
-            Self::Fixed {
-                discarded,
-                averaged,
-            } => discarded as u64 + averaged as u64,
-            Self::Until { most, .. } => most as u64,
-        }
-    }
-}
+use crate::periods::Periods;
 
 /// The parts that have types of their own.
 type Parts<C, D, I, S> = ((C, Vec<C>), D, I, S);
@@ -96,10 +77,7 @@ impl<L> ResponseCurve<L> {
             },
             gravity: DVec3::NEG_Y * 9.81,
             time_step: 1e-4,
-            periods: Periods::Fixed {
-                discarded: 20,
-                averaged: 40,
-            },
+            periods: Periods::default(),
             contained: true,
             particles: vec![0],
             seeds: vec![1],

@@ -2,7 +2,6 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use super::average::History;
-use super::curve::Periods;
 use super::period::{Period, Sums};
 use super::{Point, Response, ResponseCurve, ResponseError, Structure};
 use crate::cavity::Cavity;
@@ -14,23 +13,10 @@ use crate::integrator::Integrator;
 use crate::law::ContactLaw;
 use crate::observer::{Observer, StepReport};
 use crate::particle::Particle;
+use crate::periods::steps_per_period;
 
 /// Steps to a period at the least: ten to each half of the wave, and one for their rounding.
 const LEAST_STEPS: f64 = 21.0;
-
-/// Periods at the least that tell whether a point has settled.
-const LEAST_PERIODS: f64 = 20.0;
-
-/// How many steps of at most `longest` make up a period.
-fn steps_per_period(frequency: f64, longest: f64) -> Result<u64, ValueError> {
-    // A hair of tolerance, so that a step that divides the period is taken as it is.
-    let steps = (1.0 / (frequency * longest) * (1.0 - 1e-9))
-        .ceil()
-        .max(LEAST_STEPS);
-    // Beyond, steps could no longer be counted exactly.
-    Bound::AtMost(1e12).check("steps per period", steps)?;
-    Ok(steps as u64)
-}
 
 /// Keeps what a structure watches.
 struct Watch<'a, S> {
@@ -50,15 +36,7 @@ impl<L, C, D, I, S> ResponseCurve<L, C, D, I, S> {
             Bound::Positive.check("amplitude of the force or motion (N or m)", amplitude)?;
         }
         Bound::Positive.check("time step (s)", self.time_step)?;
-        match self.periods {
-            Periods::Fixed { averaged, .. } => {
-                Bound::AtLeast(1.0).check("periods averaged", f64::from(averaged))?;
-            }
-            Periods::Until { half_width, most } => {
-                Bound::Positive.check("half-width asked for", half_width)?;
-                Bound::AtLeast(LEAST_PERIODS).check("periods at most", f64::from(most))?;
-            }
-        }
+        self.periods.check()?;
         for &frequency in &self.frequencies {
             Bound::Positive.check("frequency (Hz)", frequency)?;
         }
@@ -97,7 +75,7 @@ where
         damper: &mut Damper<C, L, S::Mount, D, I>,
         mut each_period: impl FnMut(Period) -> ControlFlow<()>,
     ) -> Result<Response, ResponseError> {
-        let steps = steps_per_period(point.frequency, self.time_step)?;
+        let steps = steps_per_period(point.frequency, self.time_step, LEAST_STEPS)?;
         let unit = "unit of what is watched";
         let unit = Bound::Positive.check(unit, self.structure.unit(point.drive()))?;
         let mut history = History::new(self.periods, unit);
@@ -154,7 +132,7 @@ where
     ) -> Result<Damper<C, L, S::Mount, D, I>, ResponseError> {
         let frequency = Bound::Positive.check("frequency (Hz)", point.frequency)?;
         Bound::Positive.check("amplitude of the force or motion (N or m)", point.amplitude)?;
-        let steps = steps_per_period(frequency, self.time_step)?;
+        let steps = steps_per_period(frequency, self.time_step, LEAST_STEPS)?;
         let mount = self.structure.mount(point.drive())?;
         let bed = self.fill(point)?;
         let mut damper = Damper::builder(self.cavity.clone(), self.law.clone())
@@ -190,19 +168,5 @@ where
             bed.extend(filled.map_err(|error| ResponseError::Filling { point, error })?);
         }
         Ok(bed)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn steps_divide_the_period_and_are_no_longer_than_asked() {
-        assert_eq!(steps_per_period(5.0, 1e-4).unwrap(), 2000);
-        assert_eq!(steps_per_period(6.0, 1e-4).unwrap(), 1667);
-        assert_eq!(steps_per_period(8.0, 2e-5).unwrap(), 6250);
-        assert_eq!(steps_per_period(1.0, 10.0).unwrap(), 21);
-        assert!(steps_per_period(1.0, 1e-15).is_err());
     }
 }

@@ -1,13 +1,14 @@
 use std::fmt;
 use std::ops::ControlFlow;
 
-use super::run::{Hear, Ledger, Told, spread};
+use super::run::telling;
 use super::{Branches, Period, Point, Progress, Response, ResponseCurve, ResponseError, Structure};
 use crate::cavity::Cavity;
 use crate::damper::Damper;
 use crate::detector::Detector;
 use crate::integrator::Integrator;
 use crate::law::ContactLaw;
+use crate::tasks::{Hear, Ledger, Told, spread};
 
 /// What a sweep goes through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -210,17 +211,24 @@ where
             works.sum::<f64>() * most
         };
         let count = lines.iter().map(|line| points(line).len()).sum();
-        let ledger = Ledger::new(count, lines.iter().map(cost).sum(), progress);
-        spread(&lines, cost, ledger, |line, hear: &mut Hear<'_>| {
-            let hear = std::cell::RefCell::new(hear);
-            self.follow_line(
-                line,
-                &mut |point, _| (hear.borrow_mut())(&Told::Period(point.work())),
-                &mut |response, left| {
-                    let unneeded = response.point.work() * left as f64;
-                    (hear.borrow_mut())(&Told::Point(response, unneeded))
-                },
-            )
-        })
+        let ledger = Ledger::new(count, lines.iter().map(cost).sum(), telling(progress));
+        let cancelled = ResponseError::Cancelled;
+        spread(
+            &lines,
+            cost,
+            &cancelled,
+            ledger,
+            |line, hear: &mut Hear<'_, Response>| {
+                let hear = std::cell::RefCell::new(hear);
+                self.follow_line(
+                    line,
+                    &mut |point, _| (hear.borrow_mut())(&Told::Period(point.work())),
+                    &mut |response, left| {
+                        let unneeded = response.point.work() * left as f64;
+                        (hear.borrow_mut())(&Told::Point(response, unneeded))
+                    },
+                )
+            },
+        )
     }
 }
