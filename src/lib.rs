@@ -137,6 +137,10 @@ pub mod statistics;
 mod step_error;
 mod tasks;
 
+/// The version of this library, as in `0.1.0`. To be kept with results: those of one version have the same bits
+/// everywhere, and what changes them is listed in the changelog.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
 pub use glam;
 
 pub use cavity::{Cavity, Cuboid, Slot};

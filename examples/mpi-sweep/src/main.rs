@@ -18,6 +18,7 @@ use threads::Threads;
 
 mod dispatch;
 mod job;
+mod origin;
 mod part;
 mod progress;
 #[cfg(feature = "mpi")]

@@ -1,4 +1,5 @@
-//! The file of results: a line of JSON that says what the sweep is, and one for each finished point.
+//! The file of results: a line of JSON that says what the sweep is and what measured it, and one for each
+//! finished point.
 //!
 //! A line is written and flushed as soon as its point is finished, whichever that is. When all are there,
 //! the lines are put in the order of the points: complete files of one sweep are equal byte for byte.
@@ -11,6 +12,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::dispatch::Failure;
+use crate::origin::{self, Origin};
 use crate::record::{Outcome, Record};
 use crate::sweep::Sweep;
 
@@ -21,6 +23,7 @@ pub type Records = BTreeMap<usize, Record>;
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Header {
+    origin: Origin,
     sweep: Sweep,
 }
 
@@ -40,7 +43,11 @@ pub fn read(path: &Path) -> Result<Contents, Failure> {
     let whole = bytes.iter().rposition(|byte| *byte == b'\n');
     let whole = whole.map_or(0, |last| last + 1);
     let mut lines = bytes[..whole].split_inclusive(|byte| *byte == b'\n');
-    let Header { sweep } = parse(path, 1, lines.next().unwrap_or_default())?;
+    let first = lines.next().unwrap_or_default();
+    let foreign = |reason| format!("{} {reason}", path.display());
+    origin::check_version(first).map_err(foreign)?;
+    let Header { origin, sweep } = parse(path, 1, first)?;
+    Origin::of(&sweep).check(&origin).map_err(foreign)?;
     let tasks = sweep.tasks();
     let mut records = Records::new();
     for (line, number) in lines.zip(2..) {
@@ -156,7 +163,8 @@ impl Results {
 
     fn header(&self) -> Result<Vec<u8>, Failure> {
         let sweep = self.sweep.clone();
-        line(&Header { sweep })
+        let origin = Origin::of(&sweep);
+        line(&Header { origin, sweep })
     }
 
     /// Adds a result; it is on disk when this returns.

@@ -1,7 +1,7 @@
 //! What is measured: the sweep, its points, and how one of them is measured.
 
 use std::any::Any;
-use std::fmt::Display;
+use std::fmt::{Debug, Display};
 use std::num::NonZeroU32;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -9,7 +9,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use clap::{Args, ValueEnum};
 use particle_damper::{
     ContactLaw, EffectiveFields, HertzMindlin, HertzTsuji, Material, Particle, ResponseCurve,
-    RestitutionImpulse, Slot,
+    RestitutionImpulse, Slot, ValueError,
 };
 use serde::{Deserialize, Serialize};
 
@@ -144,6 +144,23 @@ impl Sweep {
         }
     }
 
+    /// All that is set, by the options and by what is above, as a text.
+    pub fn settings(&self) -> String {
+        let acrylic = Material::acrylic();
+        match self.law {
+            Law::Restitution => self.set(RestitutionImpulse::new(acrylic)),
+            Law::HertzTsuji => self.set(HertzTsuji::new(acrylic)),
+            Law::HertzMindlin => self.set(HertzMindlin::new(acrylic)),
+        }
+    }
+
+    fn set<L: Debug>(&self, law: L) -> String {
+        match self.of {
+            Kind::Responses => format!("{:?}", self.curve(law)),
+            Kind::Fields => format!("{:?} {:?}", self.fields(law), grain()),
+        }
+    }
+
     fn under<L: ContactLaw + Clone>(&self, law: L, point: Point) -> Result<Outcome, String> {
         match point {
             Point::Response(at) => {
@@ -152,14 +169,19 @@ impl Sweep {
                 exact(response).map(Outcome::Response)
             }
             Point::Field { particles, at } => {
-                let particle = Particle::new(3e-3, 0.2e-3).map_err(|error| error.to_string())?;
-                let fields = self.fields(law).with(particles, particle);
+                let grain = grain().map_err(|error| error.to_string())?;
+                let fields = self.fields(law).with(particles, grain);
                 let measurement = fields.measure(at, |_| ControlFlow::Continue(()));
                 let measurement = measurement.map_err(|error| reason(&error, &at))?;
                 exact(measurement).map(Outcome::Field)
             }
         }
     }
+}
+
+/// A grain of the fields' beds.
+fn grain() -> Result<Particle, ValueError> {
+    Particle::new(3e-3, 0.2e-3)
 }
 
 /// What an error says, without the point that it begins with: it is told anyway.

@@ -4,7 +4,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::sync::OnceLock;
 use std::thread::sleep;
 use std::time::Duration;
@@ -76,8 +76,55 @@ fn one_process() -> Vec<u8> {
     bytes
 }
 
-/// Stops the program when a few points are on disk.
-fn stop_midway(mut command: Command, results: &Path) {
+/// How a run is ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kill {
+    /// The program, or `mpirun`, is asked to end.
+    Politely,
+    /// It ends on the spot (SIGKILL), with nothing tidied up.
+    AtOnce,
+    /// Rank 0, which writes the file, ends on the spot.
+    #[cfg(feature = "mpi")]
+    Writer,
+}
+
+impl Kill {
+    fn end(self, child: &mut Child) {
+        let signal = |how: &str, process: u32| {
+            let kill = Command::new("kill")
+                .args([how, &process.to_string()])
+                .status();
+            assert!(kill.unwrap().success());
+        };
+        match self {
+            Self::Politely => signal("-TERM", child.id()),
+            Self::AtOnce => signal("-KILL", child.id()),
+            #[cfg(feature = "mpi")]
+            Self::Writer => signal("-KILL", writer(child.id())),
+        }
+    }
+}
+
+/// The process of rank 0 under an `mpirun`.
+#[cfg(feature = "mpi")]
+fn writer(mpirun: u32) -> u32 {
+    let processes = fs::read_dir("/proc").unwrap().flatten();
+    let numbers = processes.filter_map(|entry| entry.file_name().to_str()?.parse::<u32>().ok());
+    let is_writer = |process: &u32| {
+        let read = |file| fs::read(format!("/proc/{process}/{file}")).unwrap_or_default();
+        let has = |text: &[u8], line: &str| {
+            let mut lines = text.split(|byte| [b'\n', 0].contains(byte));
+            lines.any(|own| own == line.as_bytes())
+        };
+        has(&read("environ"), "OMPI_COMM_WORLD_RANK=0")
+            && has(&read("status"), &format!("PPid:\t{mpirun}"))
+    };
+    let mut writers = numbers.filter(is_writer);
+    writers.next().expect("rank 0 runs")
+}
+
+/// Ends the program when a few points are on disk.
+fn stop_midway(mut command: Command, results: &Path, kill: Kill) {
     let command = command.args(SWEEP);
     let quiet = command.stdout(Stdio::null()).stderr(Stdio::null());
     let mut child = quiet.spawn().unwrap();
@@ -89,23 +136,33 @@ fn stop_midway(mut command: Command, results: &Path) {
         assert!(child.try_wait().unwrap().is_none(), "ended too early");
         sleep(Duration::from_millis(2));
     }
-    let stopped = Command::new("kill").arg(child.id().to_string()).status();
-    assert!(stopped.unwrap().success());
+    kill.end(&mut child);
     assert!(!child.wait().unwrap().success());
+    // Ranks notice that `mpirun` is gone, and let go of the file.
+    let file = fs::File::open(results).unwrap();
+    for _ in 0..3000 {
+        if file.try_lock().is_ok() {
+            break;
+        }
+        sleep(Duration::from_millis(10));
+    }
+    file.unlock().unwrap();
     assert!(finished() < 20);
     // The slow point, the first of the sweep, has not kept others from being finished.
     let text = fs::read_to_string(results).unwrap();
     assert!(!text.contains("{\"number\":0,"));
 }
 
-/// Stops a run, spoils its last line and has it go on.
-fn goes_on(way: impl Fn(&Path) -> Command, test: &str) {
+/// Ends a run, spoils its last line and has it go on.
+fn goes_on(way: impl Fn(&Path) -> Command, test: &str, kill: Kill) {
     let folder = folder(test);
     let results = folder.join("results.jsonl");
-    stop_midway(way(&results), &results);
-    let mut bytes = fs::read(&results).unwrap();
-    assert_eq!(bytes.pop(), Some(b'\n'));
-    fs::write(&results, &bytes[..bytes.len() - 7]).unwrap();
+    stop_midway(way(&results), &results, kill);
+    // The kill may have come in the middle of a line; if not, it does now.
+    let bytes = fs::read(&results).unwrap();
+    if bytes.last() == Some(&b'\n') {
+        fs::write(&results, &bytes[..bytes.len() - 8]).unwrap();
+    }
 
     let output = run(way(&results).args(SWEEP));
     assert!(errors(&output).contains("dropped a half-written last line"));
@@ -122,13 +179,57 @@ fn goes_on(way: impl Fn(&Path) -> Command, test: &str) {
 
 #[test]
 fn threads_go_on_where_they_were_stopped() {
-    goes_on(alone, "threads");
+    goes_on(alone, "threads", Kill::Politely);
+    goes_on(alone, "threads-killed", Kill::AtOnce);
 }
 
 #[cfg(feature = "mpi")]
 #[test]
 fn ranks_go_on_where_they_were_stopped() {
-    goes_on(ranks, "ranks");
+    goes_on(ranks, "ranks", Kill::Politely);
+    goes_on(ranks, "ranks-killed", Kill::AtOnce);
+    goes_on(ranks, "ranks-writer", Kill::Writer);
+}
+
+/// Wherever a kill has cut the file, what is whole is kept and the rest is measured again.
+#[test]
+fn a_file_may_end_anywhere() {
+    let results = folder("cut").join("results.jsonl");
+    let short = || {
+        let short = [
+            "--frequencies=5,6",
+            "--particles=0",
+            "--discarded=1",
+            "--averaged=2",
+        ];
+        run(alone(&results).args(short))
+    };
+    assert!(short().status.success());
+    let whole = fs::read(&results).unwrap();
+    let ends: Vec<usize> = (0..whole.len()).filter(|n| whole[*n] == b'\n').collect();
+    let [first, second, _] = ends[..] else {
+        panic!("{} lines", ends.len());
+    };
+    let middle = (second + whole.len()) / 2;
+    for (cut, done) in [
+        (0, 0),
+        (1, 0),
+        (first, 0),
+        (first + 1, 0),
+        (first + 2, 0),
+        (second, 0),
+        (second + 1, 1),
+        (second + 2, 1),
+        (middle, 1),
+        (whole.len() - 1, 1),
+        (whole.len(), 2),
+    ] {
+        fs::write(&results, &whole[..cut]).unwrap();
+        let output = short();
+        assert!(output.status.success(), "{cut}: {}", errors(&output));
+        assert!(errors(&output).contains(&format!(": {done} of 2 points are done")));
+        assert!(fs::read(&results).unwrap() == whole, "cut at {cut}");
+    }
 }
 
 /// A run that has been stopped goes on in any other way.
@@ -137,7 +238,7 @@ fn ranks_go_on_where_they_were_stopped() {
 fn what_ranks_began_is_ended_in_parts() {
     let folder = folder("mixed");
     let results = folder.join("results.jsonl");
-    stop_midway(ranks(&results), &results);
+    stop_midway(ranks(&results), &results, Kill::Politely);
     run(ranks(&results).args(SWEEP).arg("--part=2/2"));
     run(alone(&results).args(SWEEP).arg("--part=1/2"));
     let parts = [1, 2].map(|k| folder.join(format!("results.{k}-of-2.jsonl")));
@@ -226,6 +327,35 @@ fn what_does_not_belong_is_refused() {
     );
     let other = folder.join("other.jsonl");
     fs::copy(&results, &other).unwrap();
+
+    let origin = |name: &str, value: &str| {
+        let (from, rest) = whole.split_once(&format!("\"{name}\":\"")).unwrap();
+        let (_, to) = rest.split_once('"').unwrap();
+        fs::write(&results, format!("{from}\"{name}\":\"{value}\"{to}")).unwrap();
+    };
+    for (name, value, reason) in [
+        (
+            "version",
+            "0.0.9",
+            "was measured by particle-damper 0.0.9, but this is",
+        ),
+        (
+            "settings",
+            "00c0ffee",
+            "other settings than this program has in sweep.rs",
+        ),
+        (
+            "trial",
+            "00c0ffee",
+            "was measured by another build of particle-damper",
+        ),
+    ] {
+        origin(name, value);
+        refused(&["--particles=0"], reason);
+        let foreign = folder.join("foreign.jsonl");
+        fs::rename(&results, &foreign).unwrap();
+        refused(&["--merge", &foreign.to_string_lossy()], reason);
+    }
 
     fs::write(&results, whole.replace("\"rms_mean\":", "\"rms_mean\" ")).unwrap();
     refused(&["--particles=0"], "line 2: not a result");
