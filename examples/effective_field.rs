@@ -76,21 +76,23 @@ fn draw_map(directory: &Path, quick: bool) -> Result<(), Failure> {
         cells.iter().map(move |cell| {
             let half_width = cell.energy_per_cycle.half_width.unwrap_or(f64::NAN);
             format!(
-                "{height:.6},{:.6e},{:.4},{:.6e},{half_width:.1e},{:.2e},{:.4},{:.4e},{:.3},{:.3e},{}",
+                "{height:.6},{:.6e},{:.4},{:.6e},{half_width:.1e},{:.2e},{:.4},{:.4e},{:.3},{:.3},{},{:.3e},{}",
                 cell.amplitude,
                 cell.normalised_loss(),
                 cell.energy_per_cycle.value,
                 cell.difference() - cell.gain,
                 cell.apparent_mass.value / cell.bed_mass,
                 cell.viscous_coefficient.value,
-                cell.regime.flight,
+                cell.state.flight,
+                cell.state.coherence(),
+                cell.state.regime(),
                 cell.max_overlap,
                 cell.settled
             )
         })
     });
     let columns = "height_m,amplitude_m,normalised_loss,energy_per_cycle_j,half_width_j,unexplained_j,\
-        apparent_mass_over_bed,viscous_coefficient_ns_per_m,flight,max_overlap_m,settled";
+        apparent_mass_over_bed,viscous_coefficient_ns_per_m,flight,coherence,regime,max_overlap_m,settled";
     output::write_table(&directory.join("map.csv"), columns, table)?;
     let millimetres = |values: &[f64]| values.iter().map(|value| 1e3 * value).collect::<Vec<_>>();
     let best = amplitudes

@@ -27,6 +27,9 @@
 //! the two agree, but for what the bed's own energy has grown by; a cell reports the
 //! [difference](Cell::difference) and the [gain](Cell::gain).
 //!
+//! A cell says as well in which [`Regime`] the bed is, in the literature's words, and the numbers behind that
+//! ([`BedState`]).
+//!
 //! # How sure
 //! Cells hold [`Estimate`]s: the mean, a half-width at 95 % from the periods and seeds, and how far the
 //! farthest seed is. Motions can coexist, and the start decides between them; then seeds differ by more than
@@ -42,12 +45,14 @@ mod error;
 mod estimate;
 mod measure;
 mod point;
+mod regime;
 mod run;
 mod settings;
 
 pub use cell::Cell;
 pub use error::FieldError;
 pub use estimate::Estimate;
-pub use point::{Cycle, Measurement, Point, Regime};
+pub use point::{Cycle, Measurement, Point};
+pub use regime::{BedState, Regime};
 pub use run::Progress;
 pub use settings::EffectiveFields;

@@ -1,7 +1,8 @@
 use std::f64::consts::TAU;
 
 use super::estimate::{Estimate, estimate};
-use super::point::{Cycle, Measurement, Regime};
+use super::point::{Cycle, Measurement};
+use super::regime::{BedState, Regime};
 use crate::observer::ComplexPower;
 
 /// What a damper is to its host at one amplitude and frequency: the mean over the periods and seeds.
@@ -33,8 +34,8 @@ pub struct Cell {
     pub viscous_coefficient: Estimate,
     /// Impacts per cycle on each wall, by the cavity's numbers.
     pub impacts: Vec<f64>,
-    /// The state of the bed.
-    pub regime: Regime,
+    /// What the bed did; all zero of a [known](Self::known) cell.
+    pub state: BedState,
     /// The largest overlap of all runs in m, their starts included.
     pub max_overlap: f64,
     /// How many seeds there are.
@@ -76,7 +77,7 @@ impl Cell {
             apparent_mass: Estimate::known(apparent_mass),
             viscous_coefficient: Estimate::known(viscous_coefficient),
             impacts: Vec::new(),
-            regime: Regime::default(),
+            state: BedState::default(),
             max_overlap: 0.0,
             seeds: 0,
             periods: 0,
@@ -120,7 +121,7 @@ impl Cell {
             apparent_mass: of(&|c| c.power.apparent_mass()),
             viscous_coefficient: of(&|c| c.power.viscous_coefficient()),
             impacts: (0..walls).map(impacts).collect(),
-            regime: mean_regime(&runs),
+            state: mean_state(&runs),
             max_overlap: runs.iter().map(|run| run.max_overlap).fold(0.0, f64::max),
             seeds: runs.len(),
             periods: runs.iter().map(|run| run.kept().len()).sum(),
@@ -148,6 +149,12 @@ impl Cell {
         self.power.normalised_loss(self.bed_mass)
     }
 
+    /// In which state the bed is, as [`BedState::regime`] tells; none of a cell that was not measured.
+    #[must_use]
+    pub fn regime(&self) -> Option<Regime> {
+        (self.periods > 0).then(|| self.state.regime())
+    }
+
     /// Energy per cycle by the wall force less that by the contacts, J. Over whole periods of a motion that
     /// repeats itself the two agree; else the bed's energy has grown by the [gain](Self::gain).
     #[must_use]
@@ -157,12 +164,12 @@ impl Cell {
 }
 
 /// The mean over runs of their means over periods.
-fn mean_regime(runs: &[&Measurement]) -> Regime {
-    let mut mean = Regime::default();
+fn mean_state(runs: &[&Measurement]) -> BedState {
+    let mut mean = BedState::default();
     for run in runs {
         let weight = 1.0 / (runs.len() * run.kept().len()) as f64;
         for cycle in run.kept() {
-            mean.add(&cycle.regime, weight);
+            mean.add(&cycle.state, weight);
         }
     }
     mean

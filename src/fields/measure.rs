@@ -1,6 +1,7 @@
 use std::ops::ControlFlow;
 
-use super::point::{Cycle, Regime};
+use super::point::Cycle;
+use super::regime::BedState;
 use super::settings::Bed;
 use super::{EffectiveFields, FieldError, Measurement, Point};
 use crate::cavity::Cavity;
@@ -79,7 +80,7 @@ where
                 let overlap = damper.largest_overlap();
                 measurement.max_overlap = measurement.max_overlap.max(overlap);
             }
-            let cycle = watch.close();
+            let cycle = watch.close(measurement.carried() / self.bed_size().0 as f64);
             if period > 0 {
                 measurement.cycles.push(cycle);
             }
@@ -140,8 +141,9 @@ impl Watch {
         })
     }
 
-    /// What the period was that ends here. The next one begins.
-    fn close(&mut self) -> Cycle {
+    /// What the period was that ends here, of particles that have the energy `carried` (J) each when they move
+    /// along. The next one begins.
+    fn close(&mut self, carried: f64) -> Cycle {
         let (harmonics, (ledger, bed)) = &mut self.observers;
         let account = ledger.close();
         let impacts = |wall| harmonics.walls().wall(0, wall).map_or(0, |own| own.impacts);
@@ -150,12 +152,7 @@ impl Watch {
             contact_loss: account.losses.total(),
             gain: account.change(),
             impacts: (0..self.walls).map(impacts).collect(),
-            regime: Regime {
-                contacts: bed.contacts(),
-                flight: bed.flight(),
-                off_walls: bed.off_walls(),
-                temperature: bed.temperature(),
-            },
+            state: BedState::new(bed, carried),
         };
         harmonics.reset();
         *bed = BedRegime::new();

@@ -1,6 +1,7 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
+use super::BedState;
 use crate::observer::ComplexPower;
 
 /// One point of the fields: a run of its own, whatever other points there are.
@@ -34,32 +35,6 @@ impl fmt::Display for Point {
     }
 }
 
-/// The state of the bed over some time: means that a [`BedRegime`](crate::BedRegime) finds, which says how to
-/// read them.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub struct Regime {
-    /// Contacts of a particle.
-    pub contacts: f64,
-    /// Share of the particles that touch nothing, 0 to 1.
-    pub flight: f64,
-    /// Share of time in which no particle touches a wall, 0 to 1.
-    pub off_walls: f64,
-    /// Kinetic energy of a particle about the motion of the bed's centre of mass, J.
-    pub temperature: f64,
-}
-
-impl Regime {
-    /// Adds another one by a weight.
-    pub(super) fn add(&mut self, other: &Self, weight: f64) {
-        self.contacts += weight * other.contacts;
-        self.flight += weight * other.flight;
-        self.off_walls += weight * other.off_walls;
-        self.temperature += weight * other.temperature;
-    }
-}
-
 /// What happened in one period of a point.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -73,8 +48,8 @@ pub struct Cycle {
     pub gain: f64,
     /// Impacts on each wall.
     pub impacts: Vec<u64>,
-    /// The state of the bed.
-    pub regime: Regime,
+    /// What the bed did.
+    pub state: BedState,
 }
 
 /// What was measured at a point, period by period.

@@ -15,6 +15,8 @@ pub struct BedRegime {
     off_walls: f64,
     centroid: DVec3,
     temperature: f64,
+    common: f64,
+    relative: f64,
     /// Contacts of each particle in this step, and how many of all are with a wall.
     touches: Vec<u32>,
     at_walls: u32,
@@ -70,6 +72,20 @@ impl BedRegime {
         self.mean(self.temperature)
     }
 
+    /// Mean kinetic energy of the bed's centre of mass, a particle's share of it in J: what the particles have
+    /// in common, in the fixed frame. With the [temperature](Self::temperature) it is all their energy of
+    /// translation.
+    #[must_use]
+    pub fn common_energy(&self) -> f64 {
+        self.mean(self.common)
+    }
+
+    /// Mean kinetic energy of a particle by its velocity relative to its container's origin, in J.
+    #[must_use]
+    pub fn relative_energy(&self) -> f64 {
+        self.mean(self.relative)
+    }
+
     fn touch(&mut self, particle: usize) {
         if particle >= self.touches.len() {
             self.touches.resize(particle + 1, 0);
@@ -103,6 +119,7 @@ impl Observer for BedRegime {
         self.in_flight += dt * (1.0 - touching / count);
         self.off_walls += dt * f64::from(self.at_walls == 0);
         let (mut mass, mut place, mut momentum, mut energy) = (0.0, DVec3::ZERO, DVec3::ZERO, 0.0);
+        let mut relative = 0.0;
         for particle in report.particles() {
             let origin = report
                 .container(particle.cavity as usize)
@@ -111,9 +128,14 @@ impl Observer for BedRegime {
             place += particle.mass * origin.to_local(particle.position);
             momentum += particle.mass * particle.velocity;
             energy += 0.5 * particle.mass * particle.velocity.length_squared();
+            let velocity = particle.velocity - origin.velocity;
+            relative += 0.5 * particle.mass * velocity.length_squared();
         }
         self.centroid += dt * place / mass;
-        self.temperature += dt * (energy - 0.5 * momentum.length_squared() / mass) / count;
+        let common = 0.5 * momentum.length_squared() / mass;
+        self.temperature += dt * (energy - common) / count;
+        self.common += dt * common / count;
+        self.relative += dt * relative / count;
         self.touches.fill(0);
         self.at_walls = 0;
     }

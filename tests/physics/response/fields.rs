@@ -5,6 +5,7 @@ use std::sync::Mutex;
 
 use particle_damper::fields::{Cell, FieldError, Measurement, Point, Progress};
 use particle_damper::glam::{DVec3, dvec3};
+use particle_damper::impact_damper::collecting_amplitude;
 use particle_damper::{
     Cuboid, EffectiveFields, HertzTsuji, Material, Particle, RestitutionImpulse, StepError,
 };
@@ -204,4 +205,32 @@ fn units_of_work_can_be_written_and_read() {
     let cell = Cell::pooled(&[read]).unwrap();
     let read: Cell = serde_json::from_str(&serde_json::to_string(&cell).unwrap()).unwrap();
     assert_eq!(read, cell);
+}
+
+/// 50 grains of 4 mm. Weightless ones, loosely piled, leave 23 mm of their box clear: they collect where A > d/pi,
+/// and are a gas far below. Under gravity a bed rests in its box up to 1 g; on its side, shaken as hard, it flows.
+#[test]
+fn states_of_a_bed_have_the_words_of_the_literature() {
+    let collecting = collecting_amplitude(0.023).unwrap();
+    for (height, gravity, axis, amplitude, regime) in [
+        (0.03, 0.0, DVec3::Y, 1.3 * collecting, "collect and collide"),
+        (0.03, 0.0, DVec3::Y, 0.4 * collecting, "gas-like"),
+        (0.03, 9.81, DVec3::Y, 0.5e-3, "solid"),
+        (0.08, 9.81, DVec3::X, 0.62e-3, "convective"),
+    ] {
+        let cavity = Cuboid::new(dvec3(0.02, height, 0.02)).unwrap();
+        let law = RestitutionImpulse::new(Material::acrylic());
+        let fields = EffectiveFields::new(law, cavity)
+            .along(axis)
+            .gravity(DVec3::NEG_Y * gravity)
+            .with(50, Particle::with_density(2e-3, 1190.0).unwrap())
+            .amplitudes([amplitude])
+            .frequencies([20.0])
+            .periods(8, 8);
+        let cell = &fields.run(go_on).unwrap()[0];
+        assert_eq!(cell.regime().unwrap().to_string(), regime, "{cell:?}");
+        let coherence = cell.state.coherence();
+        assert!((coherence > 0.5) != (regime == "gas-like"), "{coherence}");
+    }
+    assert_eq!(Cell::known(1e-3, 20.0, 1e-2, 0.0, 0.0).regime(), None);
 }
