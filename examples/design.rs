@@ -5,8 +5,8 @@
 //! the argmin crate) finds the best size, fill and mass from there, both under the coarse law; the strict law has
 //! the last word. `cargo run --release --example design` leaves `target/design/map.csv` and `map.svg`.
 
-#[path = "support/colour.rs"]
-mod colour;
+#[path = "support/chart.rs"]
+mod chart;
 #[path = "support/heat.rs"]
 mod heat;
 #[path = "support/output.rs"]
@@ -19,9 +19,11 @@ mod spread;
 use std::error::Error;
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
+use std::path::Path;
 
 use argmin::core::{CostFunction, Executor};
 use argmin::solver::neldermead::NelderMead;
+use chart::{Chart, Line};
 use heat::HeatMap;
 use particle_damper::excitation::Harmonic;
 use particle_damper::impact_damper::{ball_clearance, bed_clearance};
@@ -30,6 +32,7 @@ use particle_damper::{
     ContactLaw, Damper, Damping, Filling, HertzTsuji, Material, Particle, ResponseCurve,
     RestitutionImpulse, SingleDof, Slot, WallRecorder,
 };
+use plotters::prelude::SeriesLabelPosition;
 
 type Failure = Box<dyn Error + Send + Sync>;
 
@@ -44,7 +47,7 @@ const ROOM: f64 = 0.2;
 const ALLOWED: f64 = 0.025;
 const DENSITY: f64 = 1190.0;
 /// Radii in m and fills that are considered.
-const RADII: [f64; 2] = [3e-3, 7e-3];
+const RADII: [f64; 2] = [3e-3, 9e-3];
 const FILLS: [f64; 2] = [0.3, 0.9];
 
 /// What can be ordered.
@@ -104,6 +107,20 @@ impl Design {
     fn slot(&self) -> Result<Slot, Failure> {
         Ok(Slot::new(WIDTH, self.height())?)
     }
+
+    /// Which of the limits it is at: a better design may lie beyond.
+    fn limits(&self) -> Vec<&'static str> {
+        let near = |value: f64, limit: f64| (value - limit).abs() < 1e-6;
+        let limits = [
+            (near(self.radius, RADII[0]), "smallest grain considered"),
+            (near(self.radius, RADII[1]), "largest grain considered"),
+            (near(self.fill, FILLS[0]), "least fill considered"),
+            (near(self.fill, FILLS[1]), "largest fill considered"),
+            (near(self.height(), ROOM), "height of the room"),
+        ];
+        let reached = limits.into_iter().filter(|limit| limit.0);
+        reached.map(|limit| limit.1).collect()
+    }
 }
 
 fn structure() -> Result<SingleDof, Failure> {
@@ -123,14 +140,14 @@ struct Effort {
     averaged: u32,
 }
 
-/// The largest response over the frequencies between the natural one with the bed's mass and that without.
-fn peak<L: ContactLaw + Clone>(
+/// The responses at frequencies from the natural one with the bed's mass to that without.
+fn responses<L: ContactLaw + Clone>(
     law: L,
     time_step: f64,
     design: &Design,
     effort: Effort,
     seeds: u64,
-) -> Result<Response, Failure> {
+) -> Result<Vec<Response>, Failure> {
     let lowest = FREQUENCY / (1.0 + design.bed_mass()? / MASS).sqrt();
     let part = |n: u32| f64::from(n) / f64::from(effort.frequencies - 1);
     let frequency = |n: u32| lowest + (1.01 * FREQUENCY - lowest) * part(n);
@@ -144,18 +161,22 @@ fn peak<L: ContactLaw + Clone>(
         .seeds(1..=seeds)
         .frequencies((0..effort.frequencies).map(frequency))
         .periods(effort.discarded, effort.averaged);
-    let responses = curve.run(|_| ControlFlow::Continue(()))?;
+    Ok(curve.run(|_| ControlFlow::Continue(()))?)
+}
+
+/// The largest of them.
+fn peak(responses: &[Response]) -> Result<Response, Failure> {
     let larger =
-        |one: &Response, other: &Response| one.first_harmonic.total_cmp(&other.first_harmonic);
-    let largest = responses.into_iter().max_by(larger);
-    largest.ok_or_else(|| "no frequencies".into())
+        |one: &&Response, other: &&Response| one.first_harmonic.total_cmp(&other.first_harmonic);
+    let largest = responses.iter().max_by(larger);
+    Ok(*largest.ok_or("no frequencies")?)
 }
 
 /// Amplification of the structure with a design, under the coarse law; infinite if the grains do not go in.
 fn cost(design: &Design, effort: Effort) -> Result<f64, Failure> {
     let law = RestitutionImpulse::new(Material::acrylic());
-    match peak(law, 2e-4, design, effort, 1) {
-        Ok(response) => Ok(response.first_harmonic),
+    match responses(law, 2e-4, design, effort, 1) {
+        Ok(responses) => Ok(peak(&responses)?.first_harmonic),
         Err(error) if matches!(error.downcast_ref(), Some(ResponseError::Filling { .. })) => {
             Ok(f64::INFINITY)
         }
@@ -243,7 +264,7 @@ fn wear(
 
 fn main() -> Result<(), Failure> {
     let quick = std::env::args().any(|argument| argument == "--quick");
-    let (columns, rows, iterations) = if quick { (3, 3, 3) } else { (8, 9, 25) };
+    let (columns, rows, iterations) = if quick { (3, 3, 3) } else { (9, 9, 30) };
     let effort = Effort {
         frequencies: if quick { 3 } else { 5 },
         discarded: if quick { 20 } else { 60 },
@@ -256,40 +277,26 @@ fn main() -> Result<(), Failure> {
     };
     let (radii, fills) = (even(RADII, columns), even(FILLS, rows));
 
-    let order: Vec<usize> = (0..radii.len() * fills.len()).collect();
-    let mut map = vec![f64::NAN; order.len()];
-    let bar = progress::bar(order.len() as u64);
+    let count = radii.len() * fills.len();
     let design = |n: usize| Design::new(radii[n % radii.len()], fills[n / radii.len()], 1.0);
-    spread::spread(
-        &order,
-        |n| {
-            let design = design(n)?;
-            // Where the room is too low for a fill, the map is left white.
-            let fits = design.fill <= fills[n / radii.len()] + 1e-12;
-            if fits {
-                cost(&design, effort)
-            } else {
-                Ok(f64::NAN)
-            }
-        },
-        |n, found| {
-            map[n] = found;
-            bar.inc(1);
-        },
-    )?;
-    bar.finish_and_clear();
-    let finite = order.iter().filter(|n| map[**n].is_finite());
-    let best = finite.min_by(|one, other| map[**one].total_cmp(&map[**other]));
-    let start = design(*best.ok_or("no design fits")?)?;
-    let (found, steps) = refine(&start, effort, iterations)?;
-    report(&found, effort, quick)?;
-    println!(
-        "\n{} designs in the map, {steps} iterations of the optimiser",
-        order.len()
-    );
+    let map = spread::all(count, |n| {
+        let design = design(n)?;
+        // Where the room is too low for a fill, the map is left white.
+        if design.fill > fills[n / radii.len()] + 1e-12 {
+            return Ok(f64::NAN);
+        }
+        cost(&design, effort)
+    })?;
+    let finite = (0..count).filter(|n| map[*n].is_finite());
+    let best = finite.min_by(|one, other| map[*one].total_cmp(&map[*other]));
+    let best = best.ok_or("no design fits")?;
+    let (found, steps) = refine(&design(best)?, effort, iterations)?;
+    let [coarse, strict] = last_word(&found, effort, quick)?;
+    report(&found, &coarse, &strict, effort)?;
+    println!("\n{count} designs in the map, {steps} iterations of the optimiser");
 
     let directory = output::directory("design")?;
-    let lines = order.iter().map(|&n| {
+    let lines = (0..count).map(|n| {
         let (radius, fill) = (radii[n % radii.len()], fills[n / radii.len()]);
         format!("{:.3},{fill:.3},{:.4}", 2e3 * radius, map[n])
     });
@@ -299,33 +306,93 @@ fn main() -> Result<(), Failure> {
         lines,
     )?;
     let path = directory.join("map.svg");
-    let diameters: Vec<f64> = radii.iter().map(|radius| 2e3 * radius).collect();
     HeatMap {
-        title: "Peak response of the structure, 25 g of grains",
+        title: "Peak response of the structure, up to 25 g of grains",
         axes: [
             "diameter of the grains (mm)",
             "fill of the slot's height",
-            "peak over static deflection",
+            "peak over static deflection (lightest: and more)",
         ],
-        x: &diameters,
+        x: &radii.iter().map(|radius| 2e3 * radius).collect::<Vec<_>>(),
         y: &fills,
+        logarithmic: false,
         values: &map,
-        mark: (2e3 * found.radius, found.fill, "optimum"),
+        // Half as much again is bad enough.
+        range: map[best]..1.5 * map[best],
+        line: None,
+        mark: Some((2e3 * found.radius, found.fill, "optimum")),
     }
     .draw(&path)?;
     output::say_where("picture", &path);
+    draw_responses(&directory.join("response.svg"), &coarse, &strict)
+}
+
+/// The responses with the design under the coarse law and under the strict one.
+fn last_word(found: &Design, effort: Effort, quick: bool) -> Result<[Vec<Response>; 2], Failure> {
+    let fine = Effort {
+        frequencies: if quick { 3 } else { 15 },
+        discarded: 2 * effort.discarded,
+        averaged: if quick { 10 } else { 160 },
+    };
+    let last = Effort {
+        frequencies: fine.frequencies.min(8),
+        averaged: if quick { 10 } else { 60 },
+        ..fine
+    };
+    let coarse = RestitutionImpulse::new(Material::acrylic());
+    let seeds = if quick { 1 } else { 2 };
+    Ok([
+        responses(coarse, 1e-4, found, fine, 1)?,
+        responses(strict(), 3e-5, found, last, seeds)?,
+    ])
+}
+
+fn strict() -> HertzTsuji {
+    HertzTsuji::new(Material::acrylic()).damping(Damping::Tsuji)
+}
+
+/// The structure without a damper, and with it under both laws.
+fn draw_responses(path: &Path, coarse: &[Response], strict: &[Response]) -> Result<(), Failure> {
+    let of = |responses: &[Response]| {
+        let points = responses.iter();
+        let points = points.map(|response| (response.point.frequency, response.first_harmonic));
+        points.collect::<Vec<_>>()
+    };
+    let with = of(coarse);
+    let (low, high) = (with[0].0, with[with.len() - 1].0);
+    let bare = (0..=300).map(|n| {
+        let ratio = (low + (high - low) * f64::from(n) / 300.0) / FREQUENCY;
+        let off = (1.0 - ratio * ratio).hypot(2.0 * DAMPING * ratio);
+        (FREQUENCY * ratio, 1.0 / off)
+    });
+    Chart {
+        title: "The structure without grains and with those to be ordered",
+        axes: ["frequency f (Hz)", "amplitude over static deflection"],
+        x: low..high,
+        y: 5.0..150.0,
+        logarithmic: [false, true],
+        legend: SeriesLabelPosition::UpperLeft,
+    }
+    .draw(
+        path,
+        &[
+            Line::through("without", 0, bare.collect()),
+            Line::through("with, coarse law", 1, with).marked(),
+            Line::points("with, strict law, two seeds", 2, of(strict)),
+        ],
+    )?;
+    output::say_where("picture", path);
     Ok(())
 }
 
 /// Prints the parts, what they do under both laws, and what rules of thumb say.
-fn report(found: &Design, effort: Effort, quick: bool) -> Result<(), Failure> {
-    let acrylic = Material::acrylic();
-    let stiffness = structure()?.stiffness();
-    let fine = Effort {
-        frequencies: if quick { 3 } else { 9 },
-        discarded: 2 * effort.discarded,
-        averaged: if quick { 10 } else { 40 },
-    };
+fn report(
+    found: &Design,
+    coarse: &[Response],
+    strict_law: &[Response],
+    effort: Effort,
+) -> Result<(), Failure> {
+    let e = Material::acrylic().interaction.restitution;
     println!(
         "parts: {} acrylic spheres of {:.1} mm, {:.1} g",
         found.grains,
@@ -341,22 +408,14 @@ fn report(found: &Design, effort: Effort, quick: bool) -> Result<(), Failure> {
         1e3 * found.clearance(),
         found.fill
     );
+    for limit in found.limits() {
+        println!("       at the {limit}: a better design may lie beyond");
+    }
     println!(
         "\npeak over static deflection; without the damper {:.1}",
         0.5 / DAMPING
     );
-    let strict = HertzTsuji::new(acrylic).damping(Damping::Tsuji);
-    let coarse = peak(RestitutionImpulse::new(acrylic), 1e-4, found, fine, 1)?;
-    let last = peak(
-        strict.clone(),
-        3e-5,
-        found,
-        Effort {
-            frequencies: fine.frequencies.min(5),
-            ..fine
-        },
-        if quick { 1 } else { 2 },
-    )?;
+    let (coarse, last) = (peak(coarse)?, peak(strict_law)?);
     for (law, response) in [("coarse law", coarse), ("strict law", last)] {
         let within = response
             .half_widths
@@ -377,15 +436,14 @@ fn report(found: &Design, effort: Effort, quick: bool) -> Result<(), Failure> {
         );
     }
     let frequency = last.point.frequency;
-    let (force, impacts) = wear(strict, found, frequency, f64::from(effort.discarded))?;
+    let (force, impacts) = wear(strict(), found, frequency, f64::from(effort.discarded))?;
     println!(
         "\nwear and noise at {frequency:.2} Hz: {force:.2} N at most on a wall, {impacts:.0} impacts on walls a second"
     );
 
-    let amplitude = last.first_harmonic * FORCE / stiffness;
-    let e = acrylic.interaction.restitution;
+    let amplitude = last.first_harmonic * FORCE / structure()?.stiffness();
     println!(
-        "\nclearance of {:.1} mm at an amplitude of {:.2} mm; rules of thumb for it:",
+        "\nclearance of {:.1} mm at an amplitude of {:.2} mm; rules of thumb, without gravity, for it:",
         1e3 * found.clearance(),
         1e3 * amplitude
     );
@@ -394,11 +452,12 @@ fn report(found: &Design, effort: Effort, quick: bool) -> Result<(), Failure> {
         1e3 * bed_clearance(amplitude)?
     );
     println!(
-        "  one ball of e {e}, pi A (1 + e)/(1 - e)      {:6.1} mm",
-        1e3 * ball_clearance(amplitude, e)?
+        "  one ball of e {e}, pi A (1 + e)/(1 - e)      {:6.1} mm: not for {} grains, which lose more in their midst",
+        1e3 * ball_clearance(amplitude, e)?,
+        found.grains
     );
     println!(
-        "  without gravity; here A w^2 is {:.1} g, and both hold where that is well above 1",
+        "  A w^2 is {:.1} g here: the rules hold where it is well above 1",
         amplitude * (TAU * frequency).powi(2) / 9.81
     );
     // At its best a collecting bed takes 4 m A^2 w^2 a cycle: what amplitude does that leave?

@@ -14,9 +14,9 @@ use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use chart::{Chart, Line, POINTS};
+use chart::{Chart, Line};
 use clap::Parser;
-use particle_damper::drop_test::{DropFit, DropTest, Estimate, HeightFit};
+use particle_damper::drop_test::{DropFit, DropTest, Fitted, HeightFit};
 use particle_damper::glam::dvec3;
 use particle_damper::{
     AllPairs, Bodies, Body, Cuboid, Damper, Damping, HertzTsuji, Material, Materials, Particle,
@@ -110,8 +110,8 @@ fn noise() -> impl FnMut() -> f64 {
     }
 }
 
-fn show(what: &str, unit: &str, found: Estimate, right: f64) {
-    let Estimate {
+fn show(what: &str, unit: &str, found: Fitted, right: f64) {
+    let Fitted {
         value, low, high, ..
     } = found;
     println!(
@@ -174,9 +174,10 @@ fn main() -> Result<(), Failure> {
         heard.damping_coefficient(&impact),
         right[1],
     );
+    println!("    impact    speed after it  off the fit");
     for impact in &heard.impacts {
         println!(
-            "    {:.4} s, {:.3} m/s, {:+.2} ms",
+            "    {:.4} s  {:.3} m/s       {:+.2} ms",
             impact.time,
             impact.speed,
             1e3 * impact.residual
@@ -198,10 +199,11 @@ fn main() -> Result<(), Failure> {
         right[1],
     );
     show("scale of heights", "", seen.scale, 1.0);
+    println!("    peak      height          off the fit");
     for peak in &seen.peaks {
         let residuals = [peak.time_residual, peak.height_residual].map(|off| 1e3 * off);
         println!(
-            "    {:.4} s, {:.4} m, {:+.2} ms, {:+.2} mm",
+            "    {:.4} s  {:.4} m        {:+.2} ms, {:+.2} mm",
             peak.time, peak.height, residuals[0], residuals[1]
         );
     }
@@ -218,13 +220,6 @@ fn draw(path: &Path, trace: &[[f64; 2]], heard: &DropFit, seen: &HeightFit) -> R
     let peaks = seen.peaks.iter().map(|peak| (peak.time, 1e3 * peak.height));
     let floor = 1e3 * seen.floor.value;
     let impacts = heard.impacts.iter().map(|impact| (impact.time, floor));
-    let line = |label: &str, colour, dash, points| Line {
-        label: label.into(),
-        colour,
-        dash,
-        marked: false,
-        points,
-    };
     let last = trace.last().map_or(1.0, |at| at[0]);
     let top = trace.iter().fold(0.0_f64, |top, at| top.max(1e3 * at[1]));
     Chart {
@@ -238,14 +233,9 @@ fn draw(path: &Path, trace: &[[f64; 2]], heard: &DropFit, seen: &HeightFit) -> R
     .draw(
         path,
         &[
-            line("camera", 0, 0, points),
-            line("peaks, fitted", 2, POINTS, peaks.collect()),
-            line(
-                "impacts, fitted to the microphone",
-                1,
-                POINTS,
-                impacts.collect(),
-            ),
+            Line::through("camera", 0, points),
+            Line::points("peaks, fitted", 2, peaks.collect()),
+            Line::points("impacts, fitted to the microphone", 1, impacts.collect()),
         ],
     )?;
     output::say_where("picture", path);

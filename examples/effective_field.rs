@@ -7,10 +7,8 @@
 
 #[path = "support/chart.rs"]
 mod chart;
-#[path = "support/colour.rs"]
-mod colour;
-#[path = "support/map.rs"]
-mod map;
+#[path = "support/heat.rs"]
+mod heat;
 #[path = "support/output.rs"]
 mod output;
 #[path = "support/progress.rs"]
@@ -23,8 +21,8 @@ use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use chart::{Chart, Line, POINTS};
-use map::{Map, borders};
+use chart::{Chart, Line};
+use heat::HeatMap;
 use particle_damper::fields::Cell;
 use particle_damper::glam::{DVec3, dvec3};
 use particle_damper::{
@@ -63,15 +61,7 @@ fn draw_map(directory: &Path, quick: bool) -> Result<(), Failure> {
     let part = |n: usize| n as f64 / (count - 1) as f64;
     let amplitudes: Vec<f64> = (0..count).map(|n| 0.4e-3 * 25_f64.powf(part(n))).collect();
     let heights: Vec<f64> = (0..count).map(|n| 0.012 + 0.036 * part(n)).collect();
-    let order: Vec<usize> = (0..count).collect();
-    let bar = progress::bar(count as u64);
-    let mut rows = vec![Vec::new(); count];
-    let work = |number: usize| row(heights[number], &amplitudes, periods);
-    spread::spread(&order, work, |number, cells| {
-        rows[number] = cells;
-        bar.inc(1);
-    })?;
-    bar.finish_and_clear();
+    let rows = spread::all(count, |number| row(heights[number], &amplitudes, periods))?;
     let table = heights.iter().zip(&rows).flat_map(|(height, cells)| {
         cells.iter().map(move |cell| {
             let half_width = cell.energy_per_cycle.half_width.unwrap_or(f64::NAN);
@@ -95,31 +85,34 @@ fn draw_map(directory: &Path, quick: bool) -> Result<(), Failure> {
         apparent_mass_over_bed,viscous_coefficient_ns_per_m,flight,coherence,regime,max_overlap_m,settled";
     output::write_table(&directory.join("map.csv"), columns, table)?;
     let millimetres = |values: &[f64]| values.iter().map(|value| 1e3 * value).collect::<Vec<_>>();
-    let best = amplitudes
-        .iter()
-        .map(|a| (1e3 * a, 1e3 * (pile() + PI * a)));
-    let drawn = 1e3 * heights[0]..1e3 * heights[count - 1];
+    // The box is as high as this where a bed that does not rebound loses most.
+    let height = |amplitude: f64| pile() + PI * amplitude;
+    let ends = [heights[0], heights[count - 1]].map(|height| (height - pile()) / PI);
+    let [from, to] = [
+        ends[0].max(amplitudes[0]),
+        ends[1].min(amplitudes[count - 1]),
+    ];
+    let best = (0..=50).map(|n| from * (to / from).powf(f64::from(n) / 50.0));
+    let best = best.map(|amplitude| (1e3 * amplitude, 1e3 * height(amplitude)));
     let path = directory.join("map.svg");
-    Map {
+    HeatMap {
         title: "Energy that 50 weightless grains take per cycle",
         axes: [
             "amplitude of the box (mm)",
             "height of the box (mm)",
             "E / (m V²/2)",
         ],
-        borders: [
-            borders(&millimetres(&amplitudes), true),
-            borders(&millimetres(&heights), false),
-        ],
-        values: rows
+        x: &millimetres(&amplitudes),
+        y: &millimetres(&heights),
+        logarithmic: true,
+        values: &rows
             .iter()
-            .map(|cells| cells.iter().map(Cell::normalised_loss).collect())
-            .collect(),
+            .flatten()
+            .map(Cell::normalised_loss)
+            .collect::<Vec<_>>(),
         range: 0.0..8.0,
-        line: (
-            "clear height = π A: best without rebound",
-            best.filter(|point| drawn.contains(&point.1)).collect(),
-        ),
+        line: Some(("clear height = π A: best without rebound", best.collect())),
+        mark: None,
     }
     .draw(&path)?;
     output::say_where("picture", &path);
@@ -177,19 +170,10 @@ fn draw_ball(directory: &Path) -> Result<(), Failure> {
                 .map(|n| at(0.02 + 0.94 * f64::from(n) / 11.0))
                 .map(|d| Ok((d, ball(e, d)?[what])))
                 .collect();
-            let line = |label: String, dash, points| Line {
-                label,
-                colour: colour + 2 * what,
-                dash,
-                marked: dash == POINTS,
-                points,
-            };
-            lines.push(line(
-                format!("e {e}: {label}"),
-                0,
-                exact.map(|d| (d, theory(e, d).0[what])).collect(),
-            ));
-            lines.push(line(String::new(), POINTS, tried?));
+            let exact = exact.map(|d| (d, theory(e, d).0[what])).collect();
+            let colour = colour + 2 * what;
+            lines.push(Line::through(&format!("e {e}: {label}"), colour, exact));
+            lines.push(Line::points("", colour, tried?));
         }
     }
     let path = directory.join("ball.svg");

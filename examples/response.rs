@@ -170,7 +170,7 @@ impl Options {
             return Vec::new();
         }
         let added = |line: &OneLine| {
-            let shortest = if line.particles == 0 { 0.006 } else { 0.04 };
+            let shortest = if line.particles == 0 { 0.006 } else { 0.025 };
             let added = bends::bends(&line.of(results), shortest);
             let points = added.into_iter().map(|f| (line.variant, line.at(f)));
             points.collect::<Vec<_>>()

@@ -49,7 +49,7 @@ mod least_squares;
 mod times;
 mod trace;
 
-pub use fit::{DropFit, Estimate, HeightFit, Impact, Peak};
+pub use fit::{DropFit, Fitted, HeightFit, Impact, Peak};
 
 use crate::error::{Bound, ValueError};
 use crate::law::{Damping, Ending};

@@ -4,7 +4,7 @@
 const PIXELS: [f64; 2] = [210.0, 130.0];
 
 /// The largest angle between neighbouring pieces of a line that is not seen, in rad.
-const UNSEEN: f64 = 0.12;
+const UNSEEN: f64 = 0.07;
 
 /// The middles of the pieces on both sides of a bend that can be seen, of pieces that are longer than
 /// `shortest`; `curve` has positive ordinates and rising abscissas.

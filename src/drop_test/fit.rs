@@ -4,11 +4,11 @@ use crate::error::ValueError;
 use crate::law::ElasticImpact;
 use crate::statistics::student_t;
 
-/// A value and the interval that holds the true one with the [confidence](super::DropTest::confidence) asked
+/// A fitted value and the interval that holds the true one with the [confidence](super::DropTest::confidence) asked
 /// for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub struct Estimate {
+pub struct Fitted {
     /// The value.
     pub value: f64,
     /// The lower end of the interval.
@@ -17,7 +17,7 @@ pub struct Estimate {
     pub high: f64,
 }
 
-impl Estimate {
+impl Fitted {
     /// A value and what lies `within` of it on both sides.
     pub(super) fn new(value: f64, within: f64) -> Self {
         Self {
@@ -70,10 +70,10 @@ pub struct Peak {
 pub struct DropFit {
     /// Restitution at the [reference speed](super::DropTest::reference_speed). Noise may take it, or its
     /// interval, above one.
-    pub restitution: Estimate,
+    pub restitution: Fitted,
     /// The damping number ([`Damping`](crate::Damping)) at the reference speed. Negative where restitution is
     /// above one.
-    pub number: Estimate,
+    pub number: Fitted,
     /// The impacts; none of a height trace.
     pub impacts: Vec<Impact>,
     pub(super) bounces: Bounces,
@@ -88,10 +88,10 @@ pub struct HeightFit {
     /// The peaks of the whole flights.
     pub peaks: Vec<Peak>,
     /// Height of the trace at impact, m.
-    pub floor: Estimate,
+    pub floor: Fitted,
     /// How large heights are in the trace over what flights of their duration reach: 1 if it is
     /// calibrated and gravity is as it was given.
-    pub scale: Estimate,
+    pub scale: Fitted,
 }
 
 impl DropFit {
@@ -113,7 +113,7 @@ impl DropFit {
 
     /// Restitution at an impact speed (m/s).
     #[must_use]
-    pub fn restitution_at(&self, speed: f64) -> Estimate {
+    pub fn restitution_at(&self, speed: f64) -> Fitted {
         self.number
             .map(|number| self.bounces.restitution(number, speed))
     }
@@ -123,7 +123,7 @@ impl DropFit {
     /// [`HertzMindlin`](crate::HertzMindlin) alike, whose `elastic_impact` gives the impact. Its speed does
     /// not matter.
     #[must_use]
-    pub fn damping_coefficient(&self, impact: &ElasticImpact) -> Estimate {
+    pub fn damping_coefficient(&self, impact: &ElasticImpact) -> Fitted {
         let Bounces {
             damping, reference, ..
         } = self.bounces;
@@ -170,9 +170,9 @@ impl Interval {
         solution: &Solution<P>,
         place: usize,
         unit: f64,
-    ) -> Estimate {
+    ) -> Fitted {
         let error = solution.covariance[place][place].sqrt() * self.deviation;
-        Estimate::new(
+        Fitted::new(
             solution.parameters[place] * unit,
             self.quantile * error * unit,
         )

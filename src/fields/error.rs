@@ -4,7 +4,8 @@ use crate::error::ValueError;
 use crate::filling::FillingError;
 use crate::step_error::StepError;
 
-/// Why a field was not measured.
+/// Why a field was not measured: as [`ResponseError`](crate::response::ResponseError), but for what only sweeps and
+/// structures can get wrong.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FieldError {
@@ -25,7 +26,7 @@ pub enum FieldError {
         /// The point that was to be measured.
         point: Point,
         /// What is wrong.
-        error: BuildError,
+        error: Box<BuildError>,
     },
     /// A step could not be taken.
     #[error("{point}, after {time} s: {error}")]
@@ -35,7 +36,7 @@ pub enum FieldError {
         /// Simulated time in s.
         time: f64,
         /// What happened.
-        error: StepError,
+        error: Box<StepError>,
     },
     /// The callback asked to stop.
     #[error("cancelled")]

@@ -56,6 +56,7 @@ where
             .gravity(self.gravity)
             .time_step(1.0 / (frequency * steps as f64))
             .build()
+            .map_err(Box::new)
             .map_err(|error| FieldError::Build { point, error })?;
         let mut measurement = Measurement {
             point,
@@ -75,7 +76,7 @@ where
                 done.map_err(|error| FieldError::Step {
                     point,
                     time: damper.time(),
-                    error,
+                    error: Box::new(error),
                 })?;
                 let overlap = damper.largest_overlap();
                 measurement.max_overlap = measurement.max_overlap.max(overlap);

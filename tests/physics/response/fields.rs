@@ -187,7 +187,7 @@ fn fields_can_be_cancelled_and_what_cannot_be_is_told_apart() {
         panic!("a box that outruns its particles");
     };
     assert!((point.amplitude - 1.0).abs() < 1e-15 && time < 0.1);
-    assert!(matches!(error, StepError::TooFast { .. }), "{error}");
+    assert!(matches!(*error, StepError::TooFast { .. }), "{error}");
     assert!(error.to_string().len() < format!("{point}: {error}").len());
 }
 
