@@ -336,7 +336,7 @@ fn last_word(found: &Design, effort: Effort, quick: bool) -> Result<[Vec<Respons
     };
     let last = Effort {
         frequencies: fine.frequencies.min(8),
-        averaged: if quick { 10 } else { 60 },
+        averaged: if quick { 10 } else { 120 },
         ..fine
     };
     let coarse = RestitutionImpulse::new(Material::acrylic());
