@@ -242,7 +242,8 @@ where
         Observable::contacts(&self.engine)
     }
 
-    /// The largest overlap in m when contacts were evaluated last.
+    /// The largest overlap in m: under a force law when contacts were evaluated last, under an impulse law at
+    /// the start of the last step.
     #[must_use]
     pub fn largest_overlap(&self) -> f64 {
         self.engine.largest_overlap()

@@ -33,9 +33,10 @@ pub struct ContactEvent {
     pub partner: Partner,
     /// Number of the cavity.
     pub cavity: usize,
-    /// The contact: under a force law at the end of the step. Under an impulse law with the velocities at
-    /// the start of the step, and normal and overlap where contacts are looked for, at its midpoint unless
-    /// the [solver](crate::SolverParameters::prediction) is set otherwise.
+    /// The contact: under a force law at the end of the step. Under an impulse law at its start, but with
+    /// the normal where contacts are looked for, at its midpoint unless the
+    /// [solver](crate::SolverParameters::prediction) is set otherwise; the overlap is along that normal, and
+    /// negative if the bodies touch only within the step.
     pub contact: Contact,
     /// The force on the particle: under a force law that at the end of the step, under an impulse law the
     /// impulse over the time step, which holds over it.

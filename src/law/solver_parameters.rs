@@ -20,7 +20,8 @@ pub enum SweepOrder {
 ///
 /// 1. **Predict**: all bodies stand where they will be at [`prediction`](Self::prediction) of the step.
 /// 2. **Prepare** a contact constraint for each two bodies that touch there, or will within the step: the
-///    active contacts. Each has a target, the speed of separation that it has to leave: e times the speed
+///    active contacts, by their speed of approach or by the load that they bore and that presses them
+///    together again (speculative contacts). Each has a target, the speed of separation that it has to leave: e times the speed
 ///    of approach v at the *start* of the step; or, if v is below the
 ///    [restitution threshold](Self::restitution_threshold), what
 ///    [position correction](Self::position_correction) asks for.
@@ -54,9 +55,7 @@ pub struct SolverParameters {
     /// Overlap that is left alone, as a fraction of the smaller radius. Not negative; 0.01 unless set.
     pub slop: f64,
     /// Part of the impulse of the step before that a contact at rest starts from, 0 to 1; 1 unless set:
-    /// then a pile at rest stays where it is. At 0.9 it creeps (0.002 radii in five seconds), but tall beds
-    /// that are hit hard overlap less: 200 grains, 33 on one another, at 3 g and 20 Hz, by 0.05 of the radius
-    /// at the most and not 0.06.
+    /// then a pile at rest stays where it is. At 0.9 it creeps (0.002 radii in five seconds).
     pub warm_start: f64,
     /// Where in the step contacts are looked for, as a fraction of it, 0 to 1/2. Unless set it is 1/2, the
     /// midpoint: then impacts come neither early nor late on the mean, and angular momentum is exact.

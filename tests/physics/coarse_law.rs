@@ -24,13 +24,6 @@ fn sweeping(sweeps: u32) -> SolverParameters {
     SolverParameters::default().with_sweeps(sweeps)
 }
 
-/// What the docs of [`SolverParameters::warm_start`] advise for tall beds that are hit hard.
-fn for_tall_beds() -> SolverParameters {
-    let mut parameters = SolverParameters::default();
-    parameters.warm_start = 0.9;
-    parameters
-}
-
 /// A floor shaken with `peak` times the acceleration of gravity at `frequency` (Hz).
 fn shaken(peak: f64, frequency: f64) -> impl Fn(f64) -> Motion {
     let omega = TAU * frequency;
@@ -74,12 +67,7 @@ fn overlaps<C: Cavity>(
 fn stays_apart(size: [f64; 2], count: usize, [peak, frequency]: [f64; 2], seconds: f64) {
     let slot = Slot::new(size[0], size[1]).unwrap();
     let bed = Filling::new(1).with(count, grain(1.0)).fill(&slot).unwrap();
-    let hard = count == 200 && peak >= 3.0 && frequency <= 20.0;
-    let parameters = if hard {
-        for_tall_beds()
-    } else {
-        SolverParameters::default()
-    };
+    let parameters = SolverParameters::default();
     let found = overlaps(slot, bed, shaken(peak, frequency), parameters, seconds);
     let bound = if frequency > 10.0 { 0.05 } else { 0.1 };
     println!("{count} grains, {peak} g at {frequency} Hz, {seconds} s: {found:?} of {bound}");
@@ -104,6 +92,8 @@ fn a_gently_shaken_bed_does_not_sink() {
     }
     stays_apart([0.009, 0.25], 4, [1.5, 20.0], 4.0);
     stays_apart([0.036, 0.6], 200, [1.1, 40.0], 1.0);
+    // A grain wedged under load came off by a hair for a step, in which its neighbours drove it in.
+    stays_apart([0.036, 0.6], 200, [3.0, 20.0], 2.0);
 }
 
 #[test]

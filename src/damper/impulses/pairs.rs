@@ -22,7 +22,7 @@ type Column = [f64; LANES];
 pub(super) struct Lanes<S: Space> {
     /// From the second centre to the first, m.
     towards: [S::Vector; LANES],
-    /// Rate at which the distance of the centres speed_gains, times that distance, m^2/s.
+    /// Rate at which the centres approach at the start of the step, times their distance, m^2/s.
     closing: Column,
     /// Square of the distance, m^2, and then the distance, m.
     distance: Column,
@@ -72,9 +72,15 @@ impl<S: Space> Lanes<S> {
         }
     }
 
-    /// Works out which of the first `count` pairs are in contact. Returns their lanes, and how many.
+    /// Works out which of the first `count` pairs are in contact, where `closes_under_load` tells of a lane, a gap
+    /// (m) and a speed of approach (m/s) what the step does. Returns their lanes, and how many.
     #[inline(always)]
-    fn find_active(&mut self, step: &SolverStep, count: usize) -> ([u8; LANES], usize) {
+    fn find_active(
+        &mut self,
+        step: &SolverStep,
+        count: usize,
+        closes_under_load: impl Fn(usize, f64, f64) -> bool,
+    ) -> ([u8; LANES], usize) {
         let count = count.min(LANES);
         for n in 0..count {
             let distance = self.distance[n].sqrt();
@@ -91,14 +97,18 @@ impl<S: Space> Lanes<S> {
         for n in 0..count {
             // Written before it is known whether it counts: no branch to mispredict.
             active[found] = n as u8;
-            found += usize::from(self.within[n] > 0.0);
+            let active = self.within[n] > 0.0 || {
+                let gap = self.distance[n] - self.touching[n];
+                closes_under_load(n, gap, self.closing[n] * self.inverse[n])
+            };
+            found += usize::from(active);
         }
         (active, found)
     }
 }
 
 impl<S: Space> ImpulseSolver<S> {
-    /// Adds the constraints of the pairs of a list. Returns their largest overlap in m.
+    /// Adds the constraints of the pairs of a list. Returns their largest overlap at the start of the step, m.
     pub(super) fn add_pairs<C: Cavity, L: ImpulseLaw>(
         &mut self,
         step: &SolverStep,
@@ -124,7 +134,13 @@ impl<S: Space> ImpulseSolver<S> {
         let runs = list.contacts.bodies().chunks(LANES);
         for (pairs, candidates) in runs.zip(list.contacts.candidates().chunks(LANES)) {
             lanes.gather(view, bodies, pairs);
-            let (active, found) = lanes.find_active(step, pairs.len());
+            let closes_under_load = |n: usize, gap: f64, approach: f64| {
+                let [i, j] = pairs[n].map(|index| index as usize);
+                let inverse_mass = bodies[i].inverse_mass + bodies[j].inverse_mass;
+                let held = list.memory_of(candidates[n], view.stamp);
+                step.closes_under_load(gap, approach, inverse_mass, held)
+            };
+            let (active, found) = lanes.find_active(step, pairs.len(), closes_under_load);
             for n in &active[..found.min(LANES)] {
                 let n = *n as usize % LANES;
                 let (pair, candidate) = (pairs[n], candidates[n]);
@@ -151,7 +167,8 @@ impl<S: Space> ImpulseSolver<S> {
                     &other
                 };
                 let (constraint, rests) = step.constrain(view.law, own, place, &kinematics, held);
-                deepest = at_least(kinematics.overlap, deepest);
+                let closing = lanes.closing[n] * lanes.inverse[n];
+                deepest = at_least(step.at_start(kinematics.overlap, closing), deepest);
                 constraints.push(constraint);
                 infos.push(ConstraintInfo {
                     candidate,

@@ -42,11 +42,52 @@ pub(super) struct ContactKinematics {
 }
 
 impl SolverStep {
-    /// The gap (m) below which bodies may be in contact that approach at a speed (m/s, not negative): they
-    /// will touch within the step.
+    /// What bodies come nearer from the start of the step to where contacts are looked for, m, that approach at a
+    /// speed (m/s) at its start: those with a smaller gap there touch within the step.
     #[inline(always)]
     pub(super) fn prediction_distance(&self, speed: f64) -> f64 {
         self.parameters.prediction * self.time_step * speed
+    }
+
+    /// The overlap (m) at the start of the step of bodies that overlap by `overlap` (m) where contacts are looked
+    /// for, and approach at a speed (m/s, negative when they part) at the start.
+    #[inline(always)]
+    pub(super) fn at_start(&self, overlap: f64, approach: f64) -> f64 {
+        overlap - self.prediction_distance(approach)
+    }
+
+    /// From where contacts are looked for to the end of the step, s.
+    #[inline(always)]
+    fn rest(&self) -> f64 {
+        (1.0 - self.parameters.prediction) * self.time_step
+    }
+
+    /// The speed (m/s) of approach that a contact's load would give two bodies over the step if they were not
+    /// in contact; `inverse_mass` is that of both along the normal, 1/kg.
+    #[inline(always)]
+    fn load_speed(&self, held: &HeldForce, inverse_mass: f64) -> f64 {
+        self.parameters.warm_start * held.load * self.time_step * inverse_mass
+    }
+
+    /// Whether bodies that approach at a speed (m/s, negative when they part) are pressed together again by the
+    /// end of the step.
+    ///
+    /// What presses two bodies on each other does not end because a gap has opened between them: left to itself, a
+    /// contact that has come off by a hair would be missed for a step, in which the load of its neighbours drives its
+    /// bodies into each other. So it stays a constraint (a speculative contact, as game engines have them) that lets
+    /// the bodies come as near as touching and no nearer.
+    #[inline(always)]
+    pub(super) fn closes_under_load(
+        &self,
+        gap: f64,
+        approach: f64,
+        inverse_mass: f64,
+        held: Option<&HeldForce>,
+    ) -> bool {
+        held.is_some_and(|held| {
+            let speed = self.load_speed(held, inverse_mass);
+            speed > 0.0 && gap < self.rest() * (speed + approach)
+        })
     }
 
     /// How long a force of the step before acts in a warm start, s, where a free body gains `speed_gain` (m/s) over
@@ -88,14 +129,15 @@ impl SolverStep {
             restitution * kinematics.approach
         } else {
             // What does not rebound comes as near as touching by the end of the step.
-            at_most(kinematics.overlap, 0.0) / ((1.0 - parameters.prediction) * self.time_step)
+            at_most(kinematics.overlap, 0.0) / self.rest()
         };
         let deep = kinematics.overlap - parameters.slop * kinematics.smaller_radius;
         let target = if deep > 0.0 {
             let correction = deep * (parameters.position_correction / self.time_step);
             // No faster than bodies fall, and their load would press them together.
-            let load = held.map_or(0.0, |held| held.load * self.time_step);
-            let most = kinematics.speed_gain + load / effective_mass;
+            let inverse_mass = kinematics.inverse_masses[0];
+            let load = held.map_or(0.0, |held| self.load_speed(held, inverse_mass));
+            let most = kinematics.speed_gain + load;
             at_least(at_most(correction, most), rebound)
         } else {
             rebound
@@ -191,10 +233,13 @@ impl<S: Space> ImpulseSolver<S> {
             let motion = self.containers.wall_at(cavity, touch, step.time_step);
             let velocity = body.velocity - motion.free;
             let ahead = -S::dot(velocity, normal);
-            let approach = at_least(ahead + motion.velocity_gain.dot(point.normal), 0.0);
+            let at_start = ahead + motion.velocity_gain.dot(point.normal);
+            let approach = at_least(at_start, 0.0);
             let overlap = radius - point.distance;
-            let prediction_distance = step.prediction_distance(at_least(ahead, approach));
-            if -overlap >= prediction_distance {
+            let held = list.memory_of(candidate, view.stamp);
+            if -overlap >= step.prediction_distance(at_least(ahead, approach))
+                && !step.closes_under_load(-overlap, at_start, body.inverse_mass, held)
+            {
                 continue;
             }
             let lever = point.distance / radius;
@@ -222,7 +267,6 @@ impl<S: Space> ImpulseSolver<S> {
                 speed_gain: motion.speed_gain,
             };
             let own = view.coefficients.wall(view.species[n]);
-            let held = list.memory_of(candidate, view.stamp);
             let turned;
             let held = match held {
                 Some(held) if self.turns() => {
@@ -234,7 +278,8 @@ impl<S: Space> ImpulseSolver<S> {
             let bodies = [index, cavity as u32];
             let place = (bodies, normal, lever);
             let (constraint, rests) = step.constrain(view.law, own, place, &kinematics, held);
-            block.largest_overlap = at_least(overlap, block.largest_overlap);
+            let deepest = step.at_start(overlap, at_start);
+            block.largest_overlap = at_least(deepest, block.largest_overlap);
             if overlap > radius {
                 let partner = Partner::Wall(wall - view.compartments[cavity].first_wall);
                 block.escaped = Some(ContactId { index: n, partner });

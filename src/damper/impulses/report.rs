@@ -73,6 +73,7 @@ impl<S: Space> ImpulseSolver<S> {
         });
         let [spin, spin_left] = [0, 1].map(|end| own[end].1 - others[end].1);
         let overlap = (1.0 - constraint.lever) * (radii[0] + radii[1]);
+        let overlap = step.at_start(overlap, -velocity.dot(normal));
         let mut contact = Contact::new(normal, overlap, velocity);
         contact.spins = [own[0].1, others[0].1];
         contact.elapsed = step.time_step;
