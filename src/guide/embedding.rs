@@ -173,22 +173,23 @@
 //! below the damper's own time step. A host that iterates, as above, is free of it.
 //!
 //! The paper's oscillator (period 166 ms) with 60 particles of its Table 1, let go at 20 mm; half of
-//! the peak to peak in the last fifth of a second before t = 1 s and t = 2 s:
+//! the peak to peak in the last fifth of a second before t = 1 s and t = 2 s, mean of six beds, which differ
+//! by 1 to 2 % among themselves:
 //!
 //! | h (ms) | at 1 s (mm) | at 2 s (mm) |
 //! |---|---|---|
-//! | solved together ([`SingleDof`](crate::SingleDof)) | 8.03 | 5.31 |
-//! | 0.1 | 7.98 | 5.23 |
-//! | 0.2 | 7.98 | 5.19 |
-//! | 0.5 | 7.91 | 5.03 |
-//! | 1 | 7.67 | 4.71 |
-//! | 2 | 7.26 | 4.15 |
-//! | 5 | 6.16 | 2.84 |
-//! | 10 | 4.65 | 1.48 |
-//! | 20 | 2.67 | 0.41 |
+//! | solved together ([`SingleDof`](crate::SingleDof)) | 8.02 | 5.30 |
+//! | 0.1 | 8.01 | 5.25 |
+//! | 0.2 | 7.93 | 5.16 |
+//! | 0.5 | 7.82 | 4.97 |
+//! | 1 | 7.68 | 4.71 |
+//! | 2 | 7.21 | 4.11 |
+//! | 5 | 6.14 | 2.84 |
+//! | 10 | 4.72 | 1.51 |
+//! | 20 | 2.73 | 0.44 |
 //!
-//! At 20 ms, an eighth of a period, most of the damping that one sees is the coupling's. The table is made with this program, in which the host
-//! is exact between exchanges, so that nothing but the coupling is at fault:
+//! At 20 ms, an eighth of a period, most of the damping that one sees is the coupling's. The table is made with
+//! this program, in which the host is exact between exchanges, so that nothing but the coupling is at fault:
 //!
 //! ```
 //! use particle_damper::glam::DVec3;
@@ -201,8 +202,8 @@
 //! const C: f64 = 0.08; // N s/m
 //! const K: f64 = 123.4; // N/m
 //!
-//! fn bed() -> Result<Vec<Particle>, Failure> {
-//!     let filling = Filling::new(1).with(60, Particle::new(3e-3, 2e-4)?);
+//! fn bed(seed: u64) -> Result<Vec<Particle>, Failure> {
+//!     let filling = Filling::new(seed).with(60, Particle::new(3e-3, 2e-4)?);
 //!     Ok(filling.fill(&Slot::paper())?)
 //! }
 //!
@@ -211,10 +212,10 @@
 //!     0.5 * (high - record.iter().fold(f64::INFINITY, |a, b| a.min(*b)))
 //! }
 //!
-//! fn together(until: f64) -> Result<f64, Failure> {
+//! fn together(seed: u64, until: f64) -> Result<f64, Failure> {
 //!     let mut damper = Damper::builder(Slot::paper(), RestitutionImpulse::new(Material::acrylic()))
 //!         .mount(SingleDof::paper().released_from(0.02, 0.0)?)
-//!         .particles(bed()?)
+//!         .particles(bed(seed)?)
 //!         .time_step(1e-4)
 //!         .build()?;
 //!     let mut record = Vec::new();
@@ -227,11 +228,11 @@
 //!     Ok(half_peak_to_peak(&record))
 //! }
 //!
-//! fn hosted(h: f64, until: f64) -> Result<f64, Failure> {
+//! fn hosted(h: f64, seed: u64, until: f64) -> Result<f64, Failure> {
 //!     let at = |x: f64, v: f64| Motion::at(DVec3::Y * x, DVec3::Y * v);
 //!     let mut damper = Damper::builder(Slot::paper(), RestitutionImpulse::new(Material::acrylic()))
 //!         .mount(Driven::at(at(0.02, 0.0)))
-//!         .particles(bed()?)
+//!         .particles(bed(seed)?)
 //!         .time_step(1e-4)
 //!         .build()?;
 //!     let g = C / (2.0 * M);
@@ -251,8 +252,13 @@
 //!     Ok(half_peak_to_peak(&record))
 //! }
 //!
-//! let exact = together(1.0)?;
-//! assert!((hosted(2e-4, 1.0)? / exact - 1.0).abs() < 0.02);
-//! assert!(hosted(1e-2, 1.0)? / exact < 0.7);
+//! let (mut exact, mut near, mut late) = (0.0, 0.0, 0.0);
+//! for seed in 1..=6 {
+//!     exact += together(seed, 1.0)?;
+//!     near += hosted(2e-4, seed, 1.0)?;
+//!     late += hosted(1e-2, seed, 1.0)?;
+//! }
+//! assert!((near / exact - 1.0).abs() < 0.02);
+//! assert!(late / exact < 0.7);
 //! # Ok::<(), Failure>(())
 //! ```
