@@ -199,11 +199,9 @@ fn show<F: Field>(
         begin.elapsed().as_secs_f64()
     );
     let rows = compare(case, &damper, &full)?;
-    let (colour, label) = (lines.len() / 2 + 1, |what: &str| {
-        format!("{}, {what}", case.name)
-    });
-    lines.push(Line::points(&label("simulated"), colour, full));
-    lines.push(Line::through(&label("equivalent"), colour, curve));
+    let colour = lines.len() / 2 + 1;
+    lines.push(Line::points("", colour, full));
+    lines.push(Line::through(&case.name, colour, curve));
     Ok((damper, rows))
 }
 
@@ -245,7 +243,7 @@ fn main() -> Result<(), Failure> {
     output::write_table(&directory.join("equivalent.csv"), columns, rows)?;
     let path = directory.join("equivalent.svg");
     Chart {
-        title: "Fields put on an oscillator of 6 Hz, and the full simulation",
+        title: "Fields put on an oscillator (lines), and the full simulation (points)",
         axes: ["frequency f (Hz)", "amplitude of the oscillator (mm)"],
         x: 5.7..6.3,
         y: 0.2..30.0,
