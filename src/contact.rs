@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::material::MaterialId;
+use crate::numbers::vector;
 
 mod partner;
 mod wall_load;
@@ -210,6 +211,21 @@ impl HeldForce {
         let vectors = [tangential, couple].map(|vector| vector.to_array());
         let numbers = [normal, self.load, self.gravity];
         vectors.into_iter().flatten().chain(numbers).for_each(tell);
+    }
+
+    /// That of which the next numbers were told; none if they are too few.
+    pub(crate) fn recall(told: &mut dyn Iterator<Item = f64>) -> Option<Self> {
+        let [tangential, couple] = [vector(told)?, vector(told)?];
+        let force = ContactForce {
+            normal: told.next()?,
+            tangential,
+            couple,
+        };
+        Some(Self {
+            force,
+            load: told.next()?,
+            gravity: told.next()?,
+        })
     }
 }
 

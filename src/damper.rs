@@ -30,8 +30,8 @@ pub(crate) mod state;
 mod step;
 
 pub use builder::{BuildError, Builder, StepBound};
-pub use driven_damper::{AnySnapshot, DrivenDamper};
-pub use snapshot::{Recorded, Recording, ReplayError, RestoreError, Snapshot};
+pub use driven_damper::DrivenDamper;
+pub use snapshot::{AnySnapshot, Recorded, Recording, ReplayError, RestoreError, Snapshot};
 
 /// What the particles do to a container.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

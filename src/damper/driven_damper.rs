@@ -1,10 +1,6 @@
 //! Dampers of unlike make behind one trait.
 
-use std::any::Any;
-use std::fmt;
-use std::sync::Arc;
-
-use super::snapshot::{RestoreError, Snapshot};
+use super::snapshot::{AnySnapshot, RestoreError};
 use super::{Damper, Reaction, Recorded};
 use crate::cavity::Cavity;
 use crate::detector::Detector;
@@ -76,51 +72,6 @@ pub trait DrivenDamper {
     fn restore(&mut self, snapshot: &AnySnapshot) -> Result<(), RestoreError>;
 }
 
-/// A [`Snapshot`] of a damper of any make, kept in memory. (One that is to be written has a type of its own:
-/// see [`Damper::snapshot`].)
-#[derive(Clone)]
-pub struct AnySnapshot {
-    time: f64,
-    state: Arc<dyn Any + Send + Sync>,
-}
-
-impl AnySnapshot {
-    /// Keeps a snapshot of whatever contacts remember.
-    #[must_use]
-    pub fn new<Memory: Send + Sync + 'static>(snapshot: Snapshot<Memory>) -> Self {
-        Self {
-            time: snapshot.time(),
-            state: Arc::new(snapshot),
-        }
-    }
-
-    /// The snapshot of contacts that remember `Memory`; none if they remember something else.
-    #[must_use]
-    pub fn of<Memory: 'static>(&self) -> Option<&Snapshot<Memory>> {
-        self.state.downcast_ref()
-    }
-
-    /// Simulated time in s.
-    #[must_use]
-    pub const fn time(&self) -> f64 {
-        self.time
-    }
-
-    fn fitting<Memory: 'static>(&self) -> Result<&Snapshot<Memory>, RestoreError> {
-        self.of().ok_or(RestoreError::OtherSetup {
-            quantity: "contact law",
-        })
-    }
-}
-
-impl fmt::Debug for AnySnapshot {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("AnySnapshot")
-            .field("time", &self.time)
-            .finish_non_exhaustive()
-    }
-}
-
 impl<C, L, D, I> DrivenDamper for Damper<C, L, Driven, D, I>
 where
     C: Cavity,
@@ -150,11 +101,12 @@ where
     }
 
     fn snapshot(&mut self) -> AnySnapshot {
-        AnySnapshot::new(Self::snapshot(self))
+        AnySnapshot::new(Self::snapshot(self), &self.engine.state.model.law)
     }
 
     fn restore(&mut self, snapshot: &AnySnapshot) -> Result<(), RestoreError> {
-        Self::restore(self, snapshot.fitting()?)
+        let snapshot = snapshot.typed(self)?;
+        Self::restore(self, &snapshot)
     }
 }
 
@@ -187,10 +139,12 @@ where
     }
 
     fn snapshot(&mut self) -> AnySnapshot {
-        AnySnapshot::new(Self::snapshot(self))
+        let snapshot = Self::snapshot(self);
+        AnySnapshot::new(snapshot, &self.damper().engine.state.model.law)
     }
 
     fn restore(&mut self, snapshot: &AnySnapshot) -> Result<(), RestoreError> {
-        Self::restore(self, snapshot.fitting()?)
+        let snapshot = snapshot.typed(self.damper())?;
+        Self::restore(self, &snapshot)
     }
 }

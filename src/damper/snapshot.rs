@@ -15,14 +15,18 @@ use crate::digest::Digest;
 use crate::integrator::Integrator;
 use crate::law::{ContactLaw, ContactMemory, LawKind};
 use crate::mount::{Load, Motion, Mount};
-use crate::step_error::StepError;
 
+mod any;
+mod check;
+mod error;
 mod recording;
 
+pub use any::AnySnapshot;
+pub use error::RestoreError;
 pub use recording::{Recorded, Recording, ReplayError};
 
 /// Number of the layout of [`Snapshot`], which changes with it.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// The state of a damper whose contacts remember `Memory`: particles, contact memory, mount and time.
 /// A damper that is restored from it goes on to the same bits.
@@ -52,7 +56,16 @@ const VERSION: u32 = 2;
 #[derive(Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Snapshot<Memory> {
+    state: BareSnapshot,
+    memory: [Vec<ContactRecord<Memory>>; 2],
+}
+
+/// A snapshot but for its contacts, which is the same whatever they remember.
+#[derive(Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct BareSnapshot {
     version: u32,
+    /// Of the whole snapshot.
     digest: Digest,
     setup: Setup,
     clock: Clock,
@@ -68,84 +81,16 @@ pub struct Snapshot<Memory> {
     containers: Vec<Motion>,
     wall_loads: Vec<WallLoad>,
     loads: Vec<Load>,
-    memory: [Vec<ContactRecord<Memory>>; 2],
 }
 
 impl<Memory> fmt::Debug for Snapshot<Memory> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Snapshot")
             .field("time", &self.time())
-            .field("particles", &self.number.len())
+            .field("particles", &self.state.number.len())
             .field("contacts", &self.memory.each_ref().map(Vec::len))
-            .field("digest", &self.digest)
+            .field("digest", &self.state.digest)
             .finish_non_exhaustive()
-    }
-}
-
-/// Why a snapshot cannot be restored into a damper.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RestoreError {
-    /// The snapshot was written by a version of this library that lays it out otherwise.
-    #[error("the snapshot has layout {found}, this version of the library reads {expected}")]
-    Version {
-        /// The layout that this version reads.
-        expected: u32,
-        /// The layout of the snapshot.
-        found: u32,
-    },
-    /// The snapshot is of a damper with another number of something.
-    #[error("the snapshot has {found} {quantity}, the damper {expected}")]
-    Mismatch {
-        /// What was counted.
-        quantity: &'static str,
-        /// How many the damper has.
-        expected: usize,
-        /// How many the snapshot has.
-        found: usize,
-    },
-    /// The snapshot is of a damper that is set up otherwise.
-    #[error("the snapshot is of a damper with another {quantity}")]
-    OtherSetup {
-        /// What differs.
-        quantity: &'static str,
-    },
-    /// The snapshot was damaged: no damper has such a state.
-    #[error("the snapshot is damaged: its {quantity} cannot be")]
-    Damaged {
-        /// What is wrong in it.
-        quantity: &'static str,
-    },
-    /// The snapshot is not what was taken: it was changed on the way, by a format that does not keep every
-    /// bit of a number, for instance.
-    #[error(
-        "the snapshot was changed on the way: its digest does not fit (a text format has to keep every bit of a number, serde_json with `float_roundtrip`)"
-    )]
-    Changed,
-    /// The contacts cannot be taken up again. The damper has to be restored from another snapshot.
-    #[error(transparent)]
-    State(#[from] StepError),
-}
-
-impl RestoreError {
-    /// `Ok` if the damper and the snapshot have as many of a `quantity`.
-    const fn count(quantity: &'static str, expected: usize, found: usize) -> Result<(), Self> {
-        if expected == found {
-            return Ok(());
-        }
-        Err(Self::Mismatch {
-            quantity,
-            expected,
-            found,
-        })
-    }
-
-    /// `Ok` if a `quantity` of the snapshot is `sound`.
-    const fn sound(quantity: &'static str, sound: bool) -> Result<(), Self> {
-        if sound {
-            return Ok(());
-        }
-        Err(Self::Damaged { quantity })
     }
 }
 
@@ -153,12 +98,12 @@ impl<Memory> Snapshot<Memory> {
     /// Simulated time in s.
     #[must_use]
     pub const fn time(&self) -> f64 {
-        self.clock.time()
+        self.state.clock.time()
     }
 
     /// The digest that it carries.
     pub(crate) const fn own_digest(&self) -> Digest {
-        self.digest
+        self.state.digest
     }
 
     /// The digest of everything, contacts as `law` tells what they remember.
@@ -168,9 +113,21 @@ impl<Memory> Snapshot<Memory> {
         L::Kind: LawKind<L, Memory = Memory>,
     {
         let mut digest = Digest::default();
+        self.state.add_to(&mut digest);
+        for contact in self.memory.iter().flatten() {
+            digest.words(&[contact.first, contact.second]);
+            L::Kind::tell_memory(law, &contact.memory, &mut |number| digest.number(number));
+        }
+        digest
+    }
+}
+
+impl BareSnapshot {
+    /// Adds all of it but its own digest.
+    fn add_to(&self, digest: &mut Digest) {
         digest.words(&[self.version, self.since_sort]);
-        self.setup.add_to(&mut digest);
-        self.clock.add_to(&mut digest);
+        self.setup.add_to(digest);
+        self.clock.add_to(digest);
         digest.words(&self.species);
         digest.words(&self.number);
         for column in [
@@ -198,116 +155,6 @@ impl<Memory> Snapshot<Memory> {
         for load in &self.loads {
             digest.vectors(&[load.force, load.torque]);
         }
-        for contact in self.memory.iter().flatten() {
-            digest.words(&[contact.first, contact.second]);
-            L::Kind::tell_memory(law, &contact.memory, &mut |number| digest.number(number));
-        }
-        digest
-    }
-
-    /// Refuses what does not fit into `engine`, and what cannot be.
-    fn check<C, L, M, D>(
-        &self,
-        engine: &Engine<C, L, M, D>,
-        setup: &Setup,
-    ) -> Result<(), RestoreError>
-    where
-        C: Cavity,
-        L: ContactLaw,
-        L::Kind: LawKind<L, Memory = Memory>,
-        M: Mount,
-        D: Detector,
-    {
-        let count = engine.state.particles.len();
-        let cavities = engine.state.model.compartments.len();
-        let coordinates = engine.state.mount_coordinates.position.len();
-        RestoreError::count("particles", count, self.number.len())?;
-        RestoreError::count("cavities", cavities, self.containers.len())?;
-        RestoreError::count(
-            "walls",
-            engine.state.wall_loads.len(),
-            self.wall_loads.len(),
-        )?;
-        RestoreError::count("mount coordinates", coordinates, self.mount.position.len())?;
-        if let Some(quantity) = setup.difference(&self.setup) {
-            return Err(RestoreError::OtherSetup { quantity });
-        }
-
-        let columns = [
-            ("positions", &self.position),
-            ("velocities", &self.velocity),
-            ("spins", &self.spin),
-            ("accelerations", &self.acceleration),
-            ("angular accelerations", &self.angular_acceleration),
-        ];
-        for (quantity, column) in columns {
-            RestoreError::count(quantity, count, column.len())?;
-            let finite = column.iter().all(|vector| vector.is_finite());
-            RestoreError::sound(quantity, finite)?;
-        }
-        RestoreError::count("species", count, self.species.len())?;
-        RestoreError::count("loads", cavities, self.loads.len())?;
-        RestoreError::count("containers", cavities, self.mount.origins.len())?;
-        let mut origins = self.mount.origins.iter();
-        RestoreError::sound("containers", origins.all(|origin| origin.is_finite()))?;
-        let mount = &self.mount;
-        for column in [&mount.position, &mount.velocity, &mount.acceleration] {
-            RestoreError::count("mount coordinates", coordinates, column.len())?;
-            let finite = column.iter().all(|value| value.is_finite());
-            RestoreError::sound("mount coordinates", finite)?;
-        }
-        RestoreError::sound("clock", self.clock.is_sound())?;
-        let mut motions = self.containers.iter();
-        let moving = |motion: &Motion| motion.is_finite() && motion.normalized().is_some();
-        RestoreError::sound("containers", motions.all(moving))?;
-        let loaded = |load: &WallLoad| load.force.is_finite() && load.torque.is_finite();
-        RestoreError::sound("wall loads", self.wall_loads.iter().all(loaded))?;
-        let loaded = |load: &Load| load.force.is_finite() && load.torque.is_finite();
-        RestoreError::sound("loads", self.loads.iter().all(loaded))?;
-        self.check_numbers(engine)?;
-        self.check_memory(count, engine.state.wall_loads.len())?;
-        if self.digest(&engine.state.model.law) != self.digest {
-            return Err(RestoreError::Changed);
-        }
-        Ok(())
-    }
-
-    /// Refuses numbers that are not each particle's once, at an index of its own cavity.
-    fn check_numbers<C, L, M, D>(&self, engine: &Engine<C, L, M, D>) -> Result<(), RestoreError>
-    where
-        L: ContactLaw,
-    {
-        let particles = &engine.state.particles;
-        let mut seen = vec![false; particles.len()];
-        for (index, (number, species)) in self.number.iter().zip(&self.species).enumerate() {
-            let number = *number as usize;
-            let own = seen
-                .get_mut(number)
-                .is_some_and(|seen| !std::mem::replace(seen, true));
-            RestoreError::sound("particle numbers", own)?;
-            let now = particles.index_of[number] as usize;
-            let at_home = engine.state.model.cavity_of(index) == engine.state.model.cavity_of(now);
-            RestoreError::sound("particle numbers", at_home)?;
-            RestoreError::sound("species", particles.species[now] == *species)?;
-        }
-        Ok(())
-    }
-
-    /// Refuses what is remembered of contacts that do not exist, or that are out of order.
-    fn check_memory(&self, particles: usize, walls: usize) -> Result<(), RestoreError> {
-        let [pairs, others] = &self.memory;
-        let paired = |contact: &ContactRecord<Memory>| {
-            let number = |index: u32| self.number.get(index as usize);
-            let (_, high) = contact.pair();
-            (high as usize) < particles && number(contact.first) < number(contact.second)
-        };
-        let walled = |contact: &ContactRecord<Memory>| {
-            (contact.first as usize) < particles && (contact.second as usize) < walls
-        };
-        let rising = pairs.is_sorted_by(|a, b| a.pair() < b.pair())
-            && others.is_sorted_by(|a, b| a.wall() < b.wall());
-        let sound = pairs.iter().all(paired) && others.iter().all(walled);
-        RestoreError::sound("contacts", sound && rising)
     }
 }
 
@@ -322,14 +169,25 @@ where
     /// The state of the damper.
     #[must_use]
     pub fn snapshot(&self) -> Snapshot<ContactMemory<L>> {
-        let engine = &self.engine;
-        let particles = &engine.state.particles;
         let mut snapshot = Snapshot {
+            state: self.bare_snapshot(),
+            memory: self.engine.neighbours.history(self.engine.state.stamp),
+        };
+        snapshot.state.digest = snapshot.digest(&self.engine.state.model.law);
+        snapshot
+    }
+
+    /// All but the contacts and the digest.
+    fn bare_snapshot(&self) -> BareSnapshot {
+        let state = &self.engine.state;
+        let particles = &state.particles;
+        let compartments = state.model.compartments.iter();
+        BareSnapshot {
             version: VERSION,
             digest: Digest::default(),
             setup: self.setup,
             clock: self.clock,
-            since_sort: engine.neighbours.since_sort,
+            since_sort: self.engine.neighbours.since_sort,
             species: particles.species.clone(),
             number: particles.id.clone(),
             position: particles.position.iter().collect(),
@@ -337,20 +195,11 @@ where
             spin: particles.spin.iter().collect(),
             acceleration: particles.acceleration.iter().collect(),
             angular_acceleration: particles.angular_acceleration.iter().collect(),
-            mount: engine.state.mount_coordinates.clone(),
-            containers: engine
-                .state
-                .model
-                .compartments
-                .iter()
-                .map(|compartment| compartment.motion)
-                .collect(),
-            wall_loads: engine.state.wall_loads.clone(),
-            loads: engine.state.loads.clone(),
-            memory: engine.neighbours.history(engine.state.stamp),
-        };
-        snapshot.digest = snapshot.digest(&engine.state.model.law);
-        snapshot
+            mount: state.mount_coordinates.clone(),
+            containers: compartments.map(|compartment| compartment.motion).collect(),
+            wall_loads: state.wall_loads.clone(),
+            loads: state.loads.clone(),
+        }
     }
 
     /// Puts the damper into the state of `snapshot`, from which it goes on to the same bits.
@@ -358,43 +207,40 @@ where
     /// # Errors
     /// If the snapshot is of another version or setup, or is damaged; the damper is then as before.
     pub fn restore(&mut self, snapshot: &Snapshot<ContactMemory<L>>) -> Result<(), RestoreError> {
-        if snapshot.version != VERSION {
-            return Err(RestoreError::Version {
-                expected: VERSION,
-                found: snapshot.version,
-            });
+        snapshot.check(&self.engine, &self.setup)?;
+        let Snapshot {
+            state: saved,
+            memory,
+        } = snapshot;
+        let Engine {
+            state, neighbours, ..
+        } = &mut self.engine;
+        let particles = &mut state.particles;
+        particles.rearrange(&saved.number);
+        for (column, saved) in [
+            (&mut particles.position, &saved.position),
+            (&mut particles.velocity, &saved.velocity),
+            (&mut particles.spin, &saved.spin),
+            (&mut particles.acceleration, &saved.acceleration),
+            (
+                &mut particles.angular_acceleration,
+                &saved.angular_acceleration,
+            ),
+        ] {
+            column.assign(saved.iter().copied());
         }
-        let engine = &mut self.engine;
-        snapshot.check(engine, &self.setup)?;
-        let particles = &mut engine.state.particles;
-        particles.rearrange(&snapshot.number);
-        particles.position.assign(snapshot.position.iter().copied());
-        particles.velocity.assign(snapshot.velocity.iter().copied());
-        particles.spin.assign(snapshot.spin.iter().copied());
-        particles
-            .acceleration
-            .assign(snapshot.acceleration.iter().copied());
-        let turning = snapshot.angular_acceleration.iter();
-        particles.angular_acceleration.assign(turning.copied());
-        engine.state.mount_coordinates.clone_from(&snapshot.mount);
-        engine.state.wall_loads.clone_from(&snapshot.wall_loads);
-        engine.state.loads.clone_from(&snapshot.loads);
-        for (compartment, motion) in engine
-            .state
-            .model
-            .compartments
-            .iter_mut()
-            .zip(&snapshot.containers)
-        {
+        state.mount_coordinates.clone_from(&saved.mount);
+        state.wall_loads.clone_from(&saved.wall_loads);
+        state.loads.clone_from(&saved.loads);
+        let compartments = state.model.compartments.iter_mut();
+        for (compartment, motion) in compartments.zip(&saved.containers) {
             compartment.place(*motion);
         }
-        engine.state.mount.resume(&snapshot.containers);
-        self.clock = snapshot.clock;
-        engine.neighbours.since_sort = snapshot.since_sort;
-        engine.state.time = self.clock.time();
-        engine
-            .neighbours
-            .list(&engine.state, Some(&snapshot.memory))?;
+        state.mount.resume(&saved.containers);
+        self.clock = saved.clock;
+        neighbours.since_sort = saved.since_sort;
+        state.time = self.clock.time();
+        neighbours.list(state, Some(memory))?;
         Ok(())
     }
 
@@ -402,9 +248,10 @@ where
     /// own time goes on.
     pub(crate) fn take_over(&mut self, other: &Self) -> Result<(), RestoreError> {
         let mut snapshot = other.snapshot();
-        snapshot.clock = self.clock;
-        snapshot.setup = snapshot.setup.under_steps_of(self.time_step);
-        snapshot.digest = snapshot.digest(&self.engine.state.model.law);
+        let state = &mut snapshot.state;
+        state.clock = self.clock;
+        state.setup = state.setup.under_steps_of(self.time_step);
+        snapshot.state.digest = snapshot.digest(&self.engine.state.model.law);
         self.restore(&snapshot)
     }
 }

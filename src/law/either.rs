@@ -136,6 +136,13 @@ where
         }
     }
 
+    fn recall_memory(&self, told: &mut dyn Iterator<Item = f64>) -> Option<Self::Memory> {
+        Some(match self {
+            First(law) => (law.recall_memory(told)?, B::Memory::default()),
+            Second(law) => (A::Memory::default(), law.recall_memory(told)?),
+        })
+    }
+
     fn stored(
         &self,
         coefficients: &Self::Coefficients,

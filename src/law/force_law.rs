@@ -22,7 +22,9 @@ use crate::contact::{Contact, ContactForce, Onset, Stored};
 ///    [`HertzTsuji`](crate::HertzTsuji#impacts-in-few-steps) does with it).
 /// 4. Forces are taken step by step, and what they miss of an impact where it begins and ends between
 ///    two of them can be made up for: see [`at_onset`](Self::at_onset).
-/// 5. [`stored`](Self::stored) tells energy that a contact holds from energy that it has lost. It is
+/// 5. [`tell_memory`](Self::tell_memory) and [`recall_memory`](Self::recall_memory) turn a memory into
+///    numbers and back, to the bit: dampers whose law has both can be written from a list of unlike ones.
+/// 6. [`stored`](Self::stored) tells energy that a contact holds from energy that it has lost. It is
 ///    asked only by observers; by default all of the force's work counts as lost, or as a negative
 ///    loss where it is given back.
 ///
@@ -107,9 +109,17 @@ pub trait ForceLaw: ContactLaw<Kind = Forces> {
     }
 
     /// Tells every number that a contact remembers, for the digest by which a
-    /// [`Snapshot`](crate::Snapshot) finds out that it was changed on the way. What is not told may change
+    /// [`Snapshot`](crate::Snapshot) finds out that it was changed on the way, and for
+    /// [snapshots](crate::AnySnapshot) that are written whatever the law. What is not told may change
     /// unnoticed; nothing is unless set.
     fn tell_memory(&self, _memory: &Self::Memory, _tell: &mut dyn FnMut(f64)) {}
+
+    /// The memory whose numbers [`tell_memory`](Self::tell_memory) has told: takes as many of them as were
+    /// told for it. None if they are too few, or if memories cannot be had back from numbers, as is taken
+    /// for granted of one that holds any data unless this is set.
+    fn recall_memory(&self, _told: &mut dyn Iterator<Item = f64>) -> Option<Self::Memory> {
+        (size_of::<Self::Memory>() == 0).then(Self::Memory::default)
+    }
 
     /// What the contact holds and can give back, with what it remembers at the end of the step.
     fn stored(
@@ -171,6 +181,10 @@ macro_rules! forward_law {
 
             fn tell_memory(&self, memory: &Self::Memory, tell: &mut dyn FnMut(f64)) {
                 (**self).tell_memory(memory, tell);
+            }
+
+            fn recall_memory(&self, told: &mut dyn Iterator<Item = f64>) -> Option<Self::Memory> {
+                (**self).recall_memory(told)
             }
 
             fn stored(

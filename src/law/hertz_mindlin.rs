@@ -7,7 +7,7 @@ use super::{ContactLaw, ForceLaw, Forces, LawError};
 use crate::contact::{Bodies, Contact, ContactForce, Onset, Stored};
 use crate::error::{Bound, ValueError};
 use crate::material::Materials;
-use crate::numbers::{at_least, at_most};
+use crate::numbers::{at_least, at_most, vector};
 
 /// The most that one step may turn the tangential oscillation of a contact at its greatest overlap,
 /// in rad. A lone contact bears 2, several on one particle sqrt 2.
@@ -261,6 +261,15 @@ impl ForceLaw for HertzMindlin {
             .chain(slip)
             .chain([memory.root, memory.force])
             .for_each(tell);
+    }
+
+    fn recall_memory(&self, told: &mut dyn Iterator<Item = f64>) -> Option<TangentialSpring> {
+        Some(TangentialSpring {
+            load: vector(told)?,
+            slip: vector(told)?,
+            root: told.next()?,
+            force: told.next()?,
+        })
     }
 }
 

@@ -195,6 +195,11 @@ impl ForceLaw for HertzTsuji {
         tell(memory.force);
     }
 
+    fn recall_memory(&self, told: &mut dyn Iterator<Item = f64>) -> Option<NormalHistory> {
+        let force = told.next()?;
+        Some(NormalHistory { force })
+    }
+
     fn stored(&self, coefficients: &Coefficients, contact: &Contact, _: &NormalHistory) -> Stored {
         NormalForce::stored(&coefficients.normal, contact, 0.0)
     }

@@ -30,6 +30,10 @@ pub trait LawKind<L: ?Sized>: sealed::Sealed {
     #[doc(hidden)]
     fn tell_memory(law: &L, memory: &Self::Memory, tell: &mut dyn FnMut(f64));
 
+    /// The memory of which the next numbers were told, as far as the law can recall it.
+    #[doc(hidden)]
+    fn recall_memory(law: &L, told: &mut dyn Iterator<Item = f64>) -> Option<Self::Memory>;
+
     /// Takes a law of this kind to the method for it.
     #[doc(hidden)]
     fn accept<V: LawVisitor<L>>(visitor: V) -> V::Output;
@@ -60,6 +64,10 @@ impl<L: ForceLaw + ?Sized> LawKind<L> for Forces {
         law.tell_memory(memory, tell);
     }
 
+    fn recall_memory(law: &L, told: &mut dyn Iterator<Item = f64>) -> Option<Self::Memory> {
+        law.recall_memory(told)
+    }
+
     fn accept<V: LawVisitor<L>>(visitor: V) -> V::Output {
         visitor.forces()
     }
@@ -72,6 +80,10 @@ impl<L: ImpulseLaw + ?Sized> LawKind<L> for Impulses {
 
     fn tell_memory(_law: &L, memory: &Self::Memory, tell: &mut dyn FnMut(f64)) {
         memory.tell(tell);
+    }
+
+    fn recall_memory(_law: &L, told: &mut dyn Iterator<Item = f64>) -> Option<Self::Memory> {
+        HeldForce::recall(told)
     }
 
     fn accept<V: LawVisitor<L>>(visitor: V) -> V::Output {

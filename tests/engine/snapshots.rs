@@ -7,10 +7,11 @@ use std::process::Command;
 use glam::DVec3;
 use particle_damper::excitation::Harmonic;
 use particle_damper::{
-    Bodies, Builder, CellGrid, Contact, ContactForce, ContactLaw, ContactMemory, Damper, Detector,
-    Filling, ForceLaw, Forces, HertzMindlin, Integrator, Interaction, LawError, Material, Motion,
-    Particle, Recorded, Recording, ReplayError, RestitutionImpulse, RestoreError, RungeKutta4,
-    SingleDof, Slot, Snapshot, TangentialSpring,
+    AnySnapshot, Bodies, Builder, CellGrid, Contact, ContactForce, ContactLaw, ContactMemory,
+    Damper, Detector, DrivenDamper, EitherLaw, Filling, ForceLaw, Forces, HertzMindlin, HertzTsuji,
+    Integrator, Interaction, LawError, Material, Motion, Particle, Recorded, Recording,
+    ReplayError, RestitutionImpulse, RestoreError, RungeKutta4, SingleDof, Slot, Snapshot,
+    TangentialSpring,
 };
 use serde_json::{Value, json};
 
@@ -111,6 +112,174 @@ fn a_new_process_goes_on_to_the_same_bits() {
     assert_eq!(end, bits(&straight));
 }
 
+/// Dampers of unlike make, whose contacts remember different things: springs, the better part of an impulse,
+/// what the chosen one of two laws does, and what a law of another crate does.
+fn fleet() -> Vec<Box<dyn DrivenDamper>> {
+    fn driven<L: ContactLaw>(law: L) -> Damper<Slot, L> {
+        let builder = Damper::builder(Slot::paper(), law).particles(bed());
+        builder.time_step(1e-5).build().unwrap()
+    }
+    let acrylic = Material::acrylic();
+    let chosen: EitherLaw<HertzMindlin, HertzTsuji> = EitherLaw::Second(HertzTsuji::new(acrylic));
+    vec![
+        Box::new(driven(HertzMindlin::new(acrylic))),
+        Box::new(driven(RestitutionImpulse::new(acrylic))),
+        Box::new(driven(chosen)),
+        Box::new(Recorded::new(driven(Ageing { recalls: true }), 10)),
+    ]
+}
+
+/// A spring that stiffens with the steps of a contact, which it counts.
+struct Ageing {
+    /// Whether a memory can be had back from its numbers.
+    recalls: bool,
+}
+
+#[derive(Clone, Copy, Default, PartialEq)]
+struct Age(u32);
+
+impl ContactLaw for Ageing {
+    type Kind = Forces;
+    type Coefficients = ();
+
+    fn coefficients(&self, _: &Bodies) -> Result<(), LawError> {
+        Ok(())
+    }
+}
+
+impl ForceLaw for Ageing {
+    type Memory = Age;
+
+    fn force(&self, (): &(), contact: &Contact, age: &Age) -> ContactForce {
+        let stiffness = 2000.0 + f64::from(age.0.min(500));
+        let damping = 0.1 * contact.approach_speed();
+        ContactForce::new(
+            (stiffness * contact.overlap + damping).max(0.0),
+            DVec3::ZERO,
+        )
+    }
+
+    fn advance(&self, (): &(), _: &Contact, age: &Age) -> Age {
+        Age(age.0.saturating_add(1))
+    }
+
+    fn tell_memory(&self, age: &Age, tell: &mut dyn FnMut(f64)) {
+        tell(f64::from(age.0));
+    }
+
+    fn recall_memory(&self, told: &mut dyn Iterator<Item = f64>) -> Option<Age> {
+        let age = told.next()?;
+        self.recalls.then_some(Age(age as u32))
+    }
+}
+
+/// Drives each damper on by `drives` milliseconds; the bits of what it does to its container.
+fn drive_all(fleet: &mut [Box<dyn DrivenDamper>], drives: u32) -> Vec<u64> {
+    let mut bits = Vec::new();
+    for damper in fleet {
+        for _ in 0..drives {
+            let next = damper.time() + 1e-3;
+            let (sine, cosine) = (40.0 * next).sin_cos();
+            let end = Motion::at(DVec3::Y * (5e-3 * sine), DVec3::Y * (0.2 * cosine));
+            let reaction = damper.drive_to(end, next).unwrap();
+            let numbers = [reaction.force, reaction.impulse].map(|vector| vector.to_array());
+            bits.extend(numbers.as_flattened().iter().map(|number| number.to_bits()));
+        }
+    }
+    bits
+}
+
+const FLEET_HANDED_OVER: &str = "PARTICLE_DAMPER_FLEET";
+
+/// The other process of the test below; by itself it does nothing.
+#[test]
+fn child_process_with_a_fleet() {
+    if let Ok(path) = std::env::var(FLEET_HANDED_OVER) {
+        let written = std::fs::read(format!("{path}.fleet")).unwrap();
+        let snapshots: Vec<AnySnapshot> = postcard::from_bytes(&written).unwrap();
+        let mut fleet = fleet();
+        for (damper, snapshot) in fleet.iter_mut().zip(&snapshots) {
+            damper.restore(snapshot).unwrap();
+        }
+        let end = serde_json::to_vec(&drive_all(&mut fleet, 60)).unwrap();
+        std::fs::write(format!("{path}.fleet-end"), end).unwrap();
+    }
+}
+
+#[test]
+fn a_new_process_goes_on_with_dampers_of_unlike_make_to_the_same_bits() {
+    let mut fleet = fleet();
+    drive_all(&mut fleet, 200);
+    let snapshots: Vec<AnySnapshot> = fleet.iter_mut().map(|own| own.snapshot()).collect();
+    let path = std::env::temp_dir().join(format!("particle-damper-{}", std::process::id()));
+    let path = path.to_str().unwrap();
+    let written = postcard::to_stdvec(&snapshots).unwrap();
+    std::fs::write(format!("{path}.fleet"), &written).unwrap();
+    let status = Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", "snapshots::child_process_with_a_fleet"])
+        .env(FLEET_HANDED_OVER, path)
+        .status()
+        .unwrap();
+    assert!(status.success());
+    let end = std::fs::read(format!("{path}.fleet-end")).unwrap();
+    let end: Vec<u64> = serde_json::from_slice(&end).unwrap();
+    for ending in ["fleet", "fleet-end"] {
+        std::fs::remove_file(format!("{path}.{ending}")).unwrap();
+    }
+    assert_eq!(end, drive_all(&mut fleet, 60));
+
+    // What was read is written as what was taken, and fits no damper of another law.
+    let read: Vec<AnySnapshot> = postcard::from_bytes(&written).unwrap();
+    assert_eq!(postcard::to_stdvec(&read).unwrap(), written);
+    for (read, taken) in read.iter().zip(&snapshots) {
+        assert_eq!(read.time().to_bits(), taken.time().to_bits());
+    }
+    let law = RestoreError::OtherSetup {
+        quantity: "contact law",
+    };
+    assert_eq!(fleet[0].restore(&read[1]).unwrap_err(), law);
+}
+
+#[test]
+fn a_snapshot_of_any_law_that_was_changed_on_the_way_is_refused() {
+    let mut fleet = fleet();
+    drive_all(&mut fleet, 200);
+    for damper in &mut fleet {
+        let value = serde_json::to_value(damper.snapshot()).unwrap();
+        let refused = |damage: fn(&mut Vec<Value>), damper: &mut dyn DrivenDamper| {
+            let mut value = value.clone();
+            damage(value["told"].as_array_mut().unwrap());
+            let snapshot: AnySnapshot = serde_json::from_value(value).unwrap();
+            damper.restore(&snapshot).unwrap_err()
+        };
+        assert!(!value["told"].as_array().unwrap().is_empty());
+        let damaged = RestoreError::Damaged {
+            quantity: "contacts",
+        };
+        let change = |told: &mut Vec<Value>| told[0] = json!(told[0].as_f64().unwrap() + 1.0);
+        assert_eq!(refused(change, damper.as_mut()), RestoreError::Changed);
+        let lose = |told: &mut Vec<Value>| drop(told.pop());
+        assert_eq!(refused(lose, damper.as_mut()), damaged);
+        let add = |told: &mut Vec<Value>| told.push(json!(0.0));
+        assert_eq!(refused(add, damper.as_mut()), damaged);
+    }
+}
+
+#[test]
+fn a_snapshot_whose_memories_cannot_be_had_back_is_not_written() {
+    let law = Ageing { recalls: false };
+    let builder = Damper::builder(Slot::paper(), law).particles(bed());
+    let damper: Box<dyn DrivenDamper> = Box::new(builder.time_step(1e-5).build().unwrap());
+    let mut fleet = [damper];
+    drive_all(&mut fleet, 200);
+    let snapshot = fleet[0].snapshot();
+    let error = serde_json::to_value(&snapshot).unwrap_err().to_string();
+    assert!(error.contains("ForceLaw::recall_memory"), "{error}");
+    let first = drive_all(&mut fleet, 20);
+    fleet[0].restore(&snapshot).unwrap();
+    assert_eq!(drive_all(&mut fleet, 20), first, "it can be gone back to");
+}
+
 #[test]
 fn restoring_is_the_same_as_never_having_stopped() {
     let mut through = damper();
@@ -181,23 +350,23 @@ fn refused(damage: impl FnOnce(&mut Value)) -> RestoreError {
 
 #[test]
 fn another_version_is_refused() {
-    let error = refused(|value| value["version"] = json!(7));
+    let error = refused(|value| value["state"]["version"] = json!(7));
     assert_eq!(
         error.to_string(),
-        "the snapshot has layout 7, this version of the library reads 2"
+        "the snapshot has layout 7, this version of the library reads 3"
     );
 }
 
 #[test]
 fn damage_is_refused_and_named() {
     let damaged = |quantity| RestoreError::Damaged { quantity };
-    let error = refused(|value| value["number"][3] = json!(4_000_000_000_u32));
+    let error = refused(|value| value["state"]["number"][3] = json!(4_000_000_000_u32));
     assert_eq!(error, damaged("particle numbers"));
-    let error = refused(|value| value["number"][3] = value["number"][4].clone());
+    let error = refused(|value| value["state"]["number"][3] = value["state"]["number"][4].clone());
     assert_eq!(error, damaged("particle numbers"));
-    let error = refused(|value| value["species"][0] = json!(9));
+    let error = refused(|value| value["state"]["species"][0] = json!(9));
     assert_eq!(error, damaged("species"));
-    let error = refused(|value| value["clock"]["steps"] = json!(u64::MAX));
+    let error = refused(|value| value["state"]["clock"]["steps"] = json!(u64::MAX));
     assert_eq!(error, damaged("clock"));
     let spring = serde_json::to_value(TangentialSpring::default()).unwrap();
     for (first, second) in [(3, 3), (0, 14), (5, 2)] {
@@ -207,7 +376,7 @@ fn damage_is_refused_and_named() {
     }
     for column in ["position", "spin", "angular_acceleration", "species"] {
         let error = refused(|value| {
-            value[column].as_array_mut().unwrap().pop();
+            value["state"][column].as_array_mut().unwrap().pop();
         });
         assert!(
             matches!(
@@ -221,7 +390,7 @@ fn damage_is_refused_and_named() {
             "{column}: {error}"
         );
     }
-    let error = refused(|value| value["mount"]["velocity"] = json!([]));
+    let error = refused(|value| value["state"]["mount"]["velocity"] = json!([]));
     assert!(matches!(error, RestoreError::Mismatch { found: 0, .. }));
 }
 
