@@ -10,7 +10,7 @@ use crate::detector::{Detector, LinkedCells, Skin};
 use crate::integrator::{Integrator, VelocityVerlet};
 use crate::law::ContactLaw;
 use crate::mount::{Driven, Load, Motion, Mount};
-use crate::observer::{Observable, Observer};
+use crate::observer::{Observable, Observer, StepReport};
 use crate::particle::Particle;
 use crate::step_error::StepError;
 use engine::Engine;
@@ -132,8 +132,11 @@ where
     }
 
     fn advance<O: Observer>(&mut self, dt: f64, observer: &mut O) -> Result<(), StepError> {
-        let (clock, integrator) = (&mut self.clock, &mut self.integrator);
-        self.engine.step(dt, clock, integrator, observer)
+        // Of every mount alike, which it asks a few times: a step is compiled once for all of them.
+        let engine: &mut Engine<C, L, dyn Mount + '_, D> = &mut self.engine;
+        engine.step(dt, &mut self.clock, &mut self.integrator, observer)?;
+        observer.step(&StepReport::new(self.clock.time(), dt, &self.engine));
+        Ok(())
     }
 
     /// Simulated time in s.

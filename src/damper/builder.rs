@@ -10,7 +10,9 @@ use crate::mount::{Driven, Mount};
 use crate::particle::Particle;
 
 mod build;
+mod check;
 mod error;
+mod start;
 mod time_step;
 
 pub use error::{BuildError, StepBound};

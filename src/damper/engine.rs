@@ -8,12 +8,13 @@ use crate::law::ContactLaw;
 
 /// The state, and the stages that change it.
 #[derive(Clone)]
-pub(crate) struct Engine<C, L: ContactLaw, M, D> {
-    pub(crate) state: State<C, L, M>,
+pub(crate) struct Engine<C, L: ContactLaw, M: ?Sized, D> {
     pub(crate) neighbours: Neighbours<L, D>,
     pub(crate) forces: Forces<L>,
     /// None under a force law.
     pub(crate) impulses: Option<ContactSolver>,
+    /// Last, because its mount is.
+    pub(crate) state: State<C, L, M>,
 }
 
 impl<C, L: ContactLaw, M, D> Engine<C, L, M, D> {

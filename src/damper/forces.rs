@@ -44,7 +44,7 @@ impl<L: ContactLaw> Forces<L> {
 impl<L: ForceLaw> Forces<L> {
     /// Evaluates the contacts of all `blocks` at a time of the step, and sets accelerations and loads on
     /// walls. With `END`, contacts advance their memory, and `observer` is told of them.
-    pub(crate) fn evaluate<C: Cavity, M: Mount, O: Observer, const END: bool>(
+    pub(crate) fn evaluate<C: Cavity, M: Mount + ?Sized, O: Observer, const END: bool>(
         &mut self,
         state: &mut State<C, L, M>,
         blocks: &mut [Block<L>],

@@ -147,7 +147,7 @@ impl ContactSolver {
     where
         C: Cavity,
         L: ImpulseLaw,
-        M: Mount,
+        M: Mount + ?Sized,
         D: Detector,
         O: Observer,
     {
@@ -168,7 +168,7 @@ impl<S: Space> ImpulseSolver<S> {
     where
         C: Cavity,
         L: ImpulseLaw,
-        M: Mount,
+        M: Mount + ?Sized,
         D: Detector,
         O: Observer,
     {
@@ -198,7 +198,7 @@ impl<S: Space> ImpulseSolver<S> {
     }
 
     /// Lists what is in reach, and prepares the constraints, of the bed where it will be.
-    fn find_constraints<C: Cavity, L: ImpulseLaw, M: Mount, D: Detector>(
+    fn find_constraints<C: Cavity, L: ImpulseLaw, M: Mount + ?Sized, D: Detector>(
         &mut self,
         step: &SolverStep,
         state: &State<C, L, M>,

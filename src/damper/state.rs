@@ -46,9 +46,8 @@ pub(crate) use view::{StateView, StepTime};
 
 /// Everything that a step changes, and what it follows.
 #[derive(Clone)]
-pub(crate) struct State<C, L: ContactLaw, M> {
+pub(crate) struct State<C, L: ContactLaw, M: ?Sized> {
     pub(crate) model: Model<C, L>,
-    pub(crate) mount: M,
     pub(crate) gravity: DVec3,
     pub(crate) particles: Particles,
     pub(crate) mount_coordinates: MountCoordinates,
@@ -70,9 +69,11 @@ pub(crate) struct State<C, L: ContactLaw, M> {
     pub(crate) overlap_limit: f64,
     /// Whether a particle behind a wall is an error.
     pub(crate) contained: bool,
+    /// Last, so that a step can be compiled once for all mounts.
+    pub(crate) mount: M,
 }
 
-impl<C: Cavity, L: ContactLaw, M> State<C, L, M> {
+impl<C: Cavity, L: ContactLaw, M: ?Sized> State<C, L, M> {
     /// The state `elapsed` seconds after the contact history was advanced, to be read.
     pub(crate) fn view(&self, elapsed: f64) -> StateView<'_, C, L> {
         let Self {

@@ -4,26 +4,28 @@
 //! once for each step of its own and as often as a drive takes.
 
 use super::engine::Engine;
-use super::state::{Clock, StepTime};
+use super::state::Clock;
 use crate::cavity::Cavity;
 use crate::detector::Detector;
 use crate::integrator::{Integrator, Stage};
-use crate::law::{ContactLaw, ForceLaw, ImpulseLaw, LawKind, LawVisitor};
+use crate::law::{ContactLaw, LawKind};
 use crate::mount::Mount;
-use crate::observer::{Observer, StepReport};
+use crate::observer::Observer;
 use crate::step_error::StepError;
 
+mod by_law;
 mod system;
 
+use by_law::{EvaluateForces, SolveImpulses};
 use system::SteppedSystem;
 
-impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
+impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized, D: Detector> Engine<C, L, M, D> {
     /// Moves everything on by `dt` (s).
-    pub(crate) fn step<I: Integrator, O: Observer>(
+    pub(crate) fn step<O: Observer>(
         &mut self,
         dt: f64,
         clock: &mut Clock,
-        integrator: &mut I,
+        integrator: &mut dyn Integrator,
         observer: &mut O,
     ) -> Result<(), StepError> {
         self.state.begin_step(dt);
@@ -36,7 +38,6 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
         self.state.rebase_mount();
         self.state.check_course()?;
         self.state.time = clock.advance(dt);
-        observer.step(&StepReport::new(self.state.time, dt, self));
         Ok(())
     }
 
@@ -68,95 +69,5 @@ impl<C: Cavity, L: ContactLaw, M: Mount, D: Detector> Engine<C, L, M, D> {
             engine: self,
             observer,
         })
-    }
-}
-
-/// Forces of the current state: worked out anew under a force law, held under an impulse law.
-struct EvaluateForces<'a, E, O> {
-    engine: &'a mut E,
-    elapsed: f64,
-    stage: Stage,
-    afresh: bool,
-    observer: &'a mut O,
-}
-
-impl<C, L, M, D, O> LawVisitor<L> for EvaluateForces<'_, Engine<C, L, M, D>, O>
-where
-    C: Cavity,
-    L: ContactLaw,
-    M: Mount,
-    D: Detector,
-    O: Observer,
-{
-    type Output = Result<(), StepError>;
-
-    fn forces(self) -> Self::Output
-    where
-        L: ForceLaw,
-    {
-        let Engine {
-            state,
-            neighbours,
-            forces,
-            ..
-        } = self.engine;
-        neighbours.find_contacts(state, self.afresh)?;
-        let predicted = self.stage == Stage::Predicted;
-        let now = StepTime {
-            elapsed: self.elapsed,
-            correction: if predicted { 0.5 * self.elapsed } else { 0.0 },
-            time_step: state.time_step,
-        };
-        let blocks = &mut neighbours.blocks;
-        match self.stage {
-            Stage::Trial => forces.evaluate::<C, M, (), false>(state, blocks, now, &mut ()),
-            Stage::End | Stage::Predicted => {
-                forces.evaluate::<C, M, O, true>(state, blocks, now, self.observer)
-            }
-        }?;
-        neighbours.check_overlaps(state)
-    }
-
-    fn impulses(self) -> Self::Output
-    where
-        L: ImpulseLaw,
-    {
-        Ok(())
-    }
-}
-
-/// The impulses of a step, under a law that has such.
-struct SolveImpulses<'a, E, O> {
-    engine: &'a mut E,
-    observer: &'a mut O,
-}
-
-impl<C, L, M, D, O> LawVisitor<L> for SolveImpulses<'_, Engine<C, L, M, D>, O>
-where
-    C: Cavity,
-    L: ContactLaw,
-    M: Mount,
-    D: Detector,
-    O: Observer,
-{
-    type Output = Result<(), StepError>;
-
-    fn forces(self) -> Self::Output
-    where
-        L: ForceLaw,
-    {
-        self.engine.state.update_mobilities();
-        Ok(())
-    }
-
-    fn impulses(self) -> Self::Output
-    where
-        L: ImpulseLaw,
-    {
-        let engine = self.engine;
-        match &mut engine.impulses {
-            Some(solver) => solver.solve(&mut engine.state, &mut engine.neighbours, self.observer),
-            None => Ok(()),
-        }
     }
 }

@@ -105,7 +105,7 @@ pub(crate) struct Mobilities {
 
 impl Mobilities {
     /// Those of a mount in a state.
-    pub(crate) fn new<M: Mount>(mount: &M, time: f64, state: [&[f64]; 2], cavities: usize) -> Self {
+    pub(crate) fn new<M: Mount + ?Sized>(mount: &M, time: f64, state: [&[f64]; 2], cavities: usize) -> Self {
         let mut new = Self {
             cavities,
             ..Self::default()
@@ -115,7 +115,7 @@ impl Mobilities {
     }
 
     /// Works them out in another state: coordinates and their rates.
-    pub(crate) fn update<M: Mount>(
+    pub(crate) fn update<M: Mount + ?Sized>(
         &mut self,
         mount: &M,
         time: f64,

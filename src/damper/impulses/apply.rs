@@ -25,7 +25,7 @@ impl<S: Space> ImpulseSolver<S> {
 impl<S: Space> ImpulseSolver<S> {
     /// Turns impulses into accelerations of the particles and loads on the walls, and keeps the forces of
     /// the contacts.
-    pub(super) fn apply<C: Cavity, L: ImpulseLaw, M: Mount>(
+    pub(super) fn apply<C: Cavity, L: ImpulseLaw, M: Mount + ?Sized>(
         &mut self,
         step: &SolverStep,
         state: &mut State<C, L, M>,
@@ -50,7 +50,7 @@ impl<S: Space> ImpulseSolver<S> {
         Ok(())
     }
 
-    fn load_walls<C: Cavity, L: ImpulseLaw, M: Mount>(
+    fn load_walls<C: Cavity, L: ImpulseLaw, M: Mount + ?Sized>(
         &self,
         step: &SolverStep,
         state: &mut State<C, L, M>,

@@ -91,7 +91,7 @@ impl<S: Space> Containers<S> {
 
 impl<S: Space> Containers<S> {
     /// The containers' free velocities over a step of `time_step` (s), and how they yield.
-    pub(super) fn set_free<C: Cavity, L: ContactLaw, M: Mount>(
+    pub(super) fn set_free<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
         &mut self,
         state: &State<C, L, M>,
         time_step: f64,

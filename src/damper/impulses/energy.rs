@@ -14,7 +14,7 @@ impl<S: Space> ImpulseSolver<S> {
     /// Sets the accelerations that lead to the velocities after the impulses. Returns how the kinetic energy
     /// (J) that impulses add, relative to the containers as they move freely, grows with a part of them: in
     /// proportion, and with the square.
-    pub(super) fn accelerate<C: Cavity, L: ContactLaw, M: Mount>(
+    pub(super) fn accelerate<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
         &self,
         step: &SolverStep,
         state: &mut State<C, L, M>,
@@ -67,7 +67,7 @@ impl<S: Space> ImpulseSolver<S> {
     /// Makes all impulses of the step smaller by one factor, so that they add no more kinetic energy than
     /// position correction needs; `growth` is as [`accelerate`](Self::accelerate) returned it.
     #[cold]
-    pub(super) fn bound_energy<C: Cavity, L: ContactLaw, M: Mount>(
+    pub(super) fn bound_energy<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
         &mut self,
         step: &SolverStep,
         state: &mut State<C, L, M>,

@@ -14,7 +14,7 @@ impl<S: Space> ImpulseSolver<S> {
     ///
     /// Refuses particles that could pass others, or a wall, unseen: two bodies that come closer by less than
     /// the sum of their radii in a step do not miss each other, whatever their restitution.
-    pub(super) fn predict<C: Cavity, L: ContactLaw, M: Mount>(
+    pub(super) fn predict<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
         &mut self,
         step: &SolverStep,
         state: &mut State<C, L, M>,
@@ -54,7 +54,7 @@ impl<S: Space> ImpulseSolver<S> {
 
     /// The speed (m/s) that a free particle of up to `fastest` (m/s) gains on any wall over the step because
     /// containers turn, from above.
-    fn swept_gain<C: Cavity, L: ContactLaw, M: Mount>(
+    fn swept_gain<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
         &self,
         step: &SolverStep,
         state: &State<C, L, M>,
@@ -72,7 +72,7 @@ impl<S: Space> ImpulseSolver<S> {
 
     /// The same for the particles of a cavity. Returns the greatest speed (m/s) relative to the container,
     /// and a particle that moves by more than its radius in the step.
-    fn predict_cavity<C: Cavity, L: ContactLaw, M: Mount>(
+    fn predict_cavity<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
         &mut self,
         step: &SolverStep,
         state: &State<C, L, M>,
@@ -125,7 +125,7 @@ impl<S: Space> ImpulseSolver<S> {
 
 /// The greatest speed (m/s) relative to a container that is turned, and a particle that moves by more than its
 /// radius in the step.
-fn fastest_on_turning<C: Cavity, L: ContactLaw, M: Mount>(
+fn fastest_on_turning<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
     state: &State<C, L, M>,
     cavity: usize,
     time_step: f64,
@@ -145,7 +145,7 @@ fn fastest_on_turning<C: Cavity, L: ContactLaw, M: Mount>(
     (fastest, too_fast)
 }
 
-fn too_fast<C: Cavity, L: ContactLaw, M: Mount>(
+fn too_fast<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
     state: &State<C, L, M>,
     index: usize,
     time_step: f64,

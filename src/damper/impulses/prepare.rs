@@ -165,7 +165,7 @@ impl SolverStep {
 
 impl<S: Space> ImpulseSolver<S> {
     /// Prepares a constraint for each active contact, in the order of pairs and then of walls.
-    pub(super) fn prepare<C: Cavity, L: ImpulseLaw, M: Mount>(
+    pub(super) fn prepare<C: Cavity, L: ImpulseLaw, M: Mount + ?Sized>(
         &mut self,
         step: &SolverStep,
         state: &State<C, L, M>,

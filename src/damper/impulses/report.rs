@@ -15,7 +15,7 @@ type Motions = [(DVec3, DVec3); 2];
 
 impl<S: Space> ImpulseSolver<S> {
     /// Tells `observer` of every contact that was given an impulse.
-    pub(super) fn report<C: Cavity, L: ContactLaw, M: Mount, O: Observer>(
+    pub(super) fn report<C: Cavity, L: ContactLaw, M: Mount + ?Sized, O: Observer>(
         &self,
         step: &SolverStep,
         state: &State<C, L, M>,
@@ -28,7 +28,7 @@ impl<S: Space> ImpulseSolver<S> {
         }
     }
 
-    fn event<C: Cavity, L: ContactLaw, M: Mount>(
+    fn event<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
         &self,
         step: &SolverStep,
         state: &State<C, L, M>,

@@ -38,7 +38,7 @@ fn bed<'a, C: Cavity>(
 impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
     /// Lists the pairs and walls that touch now. With `afresh`, candidates without a skin are listed
     /// anew first; candidates that can no longer be trusted always are.
-    pub(crate) fn find_contacts<C: Cavity, M: Mount>(
+    pub(crate) fn find_contacts<C: Cavity, M: Mount + ?Sized>(
         &mut self,
         state: &State<C, L, M>,
         afresh: bool,
@@ -57,7 +57,7 @@ impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
 
     /// Has bodies with a gap below `prediction_distance` (m) count as in contact. Candidates are listed up
     /// to more, so that they need not be listed anew for every new speed of the bed.
-    pub(crate) fn set_prediction_distance<C: Cavity, M: Mount>(
+    pub(crate) fn set_prediction_distance<C: Cavity, M: Mount + ?Sized>(
         &mut self,
         state: &State<C, L, M>,
         prediction_distance: f64,
@@ -72,7 +72,7 @@ impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
     }
 
     /// Makes the detectors ready for the bed as it stands.
-    pub(crate) fn prepare_detectors<C: Cavity, M: Mount>(
+    pub(crate) fn prepare_detectors<C: Cavity, M: Mount + ?Sized>(
         &mut self,
         state: &State<C, L, M>,
     ) -> Result<(), DetectorError> {
@@ -90,7 +90,7 @@ impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
     }
 
     /// Narrow phase. Returns whether the candidates could be trusted.
-    fn narrow<C: Cavity, M: Mount>(&mut self, state: &State<C, L, M>) -> bool {
+    fn narrow<C: Cavity, M: Mount + ?Sized>(&mut self, state: &State<C, L, M>) -> bool {
         let view = state.view(0.0);
         let reference = self.reference.rows();
         let distance = self.prediction_distance;
@@ -101,7 +101,7 @@ impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
 
     /// Broad phase: lists candidates anew. Contacts remember what they did, or what is `saved` by
     /// [`history`](Self::history).
-    pub(crate) fn list<C: Cavity, M: Mount>(
+    pub(crate) fn list<C: Cavity, M: Mount + ?Sized>(
         &mut self,
         state: &State<C, L, M>,
         saved: Option<&ContactHistory<L>>,
@@ -120,7 +120,10 @@ impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
     }
 
     /// Asks the detectors, and sorts their proposals into rows by the lower index.
-    fn detect<C: Cavity, M: Mount>(&mut self, state: &State<C, L, M>) -> Result<(), StepError> {
+    fn detect<C: Cavity, M: Mount + ?Sized>(
+        &mut self,
+        state: &State<C, L, M>,
+    ) -> Result<(), StepError> {
         let count = state.particles.len();
         self.rows.clear();
         self.rows.resize(count + 1, 0);
@@ -166,7 +169,7 @@ impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
     }
 
     /// Fills the blocks' lists from the sorted proposals, and with the walls that are near.
-    fn list_candidates<C: Cavity, M: Mount>(
+    fn list_candidates<C: Cavity, M: Mount + ?Sized>(
         &mut self,
         state: &State<C, L, M>,
         saved: Option<&ContactHistory<L>>,

@@ -10,7 +10,7 @@ use crate::step_error::StepError;
 
 impl<L: ContactLaw, D> Neighbours<L, D> {
     /// Refuses overlaps past the bound, and particles behind a wall if they are to be contained.
-    pub(crate) fn check_overlaps<C: Cavity, M: Mount>(
+    pub(crate) fn check_overlaps<C: Cavity, M: Mount + ?Sized>(
         &self,
         state: &State<C, L, M>,
     ) -> Result<(), StepError> {
@@ -26,7 +26,7 @@ impl<L: ContactLaw, D> Neighbours<L, D> {
     }
 }
 
-fn escaped<C: Cavity, L: ContactLaw, M: Mount>(
+fn escaped<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
     state: &State<C, L, M>,
     index: usize,
     partner: Partner,
@@ -43,7 +43,7 @@ fn escaped<C: Cavity, L: ContactLaw, M: Mount>(
     }
 }
 
-fn overlaps<C: Cavity, L: ContactLaw, M: Mount>(
+fn overlaps<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
     state: &State<C, L, M>,
     block: &Block<L>,
 ) -> StepError {

@@ -22,7 +22,7 @@ const INTERVAL: u32 = 1000;
 
 impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
     /// Sorts a large bed if it is time to.
-    pub(crate) fn sort_in_time<C: Cavity, M: Mount>(
+    pub(crate) fn sort_in_time<C: Cavity, M: Mount + ?Sized>(
         &mut self,
         state: &mut State<C, L, M>,
     ) -> Result<(), StepError> {
@@ -49,7 +49,7 @@ impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
     }
 
     /// Sorts a large bed. Candidates have to be listed anew.
-    pub(crate) fn sort<C: Cavity, M: Mount>(&mut self, state: &mut State<C, L, M>) {
+    pub(crate) fn sort<C: Cavity, M: Mount + ?Sized>(&mut self, state: &mut State<C, L, M>) {
         self.since_sort = 0;
         let particles = &state.particles;
         if particles.len() <= BLOCK {

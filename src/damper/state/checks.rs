@@ -4,7 +4,7 @@ use super::State;
 use crate::law::ContactLaw;
 use crate::step_error::StepError;
 
-impl<C, L: ContactLaw, M> State<C, L, M> {
+impl<C, L: ContactLaw, M: ?Sized> State<C, L, M> {
     /// Refuses positions that are not finite.
     pub(crate) fn check_finite(&self) -> Result<(), StepError> {
         let bad = self

@@ -6,7 +6,7 @@ use crate::law::{ContactLaw, LawKind};
 use crate::mount::{Motion, Mount};
 use crate::step_error::StepError;
 
-impl<C: Cavity, L: ContactLaw, M: Mount> State<C, L, M> {
+impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized> State<C, L, M> {
     /// Moves the containers to where the mount has them at `time`.
     pub(crate) fn place_containers(&mut self, time: f64) -> Result<(), StepError> {
         let degrees = self.mount.degrees();

@@ -35,7 +35,7 @@ pub(crate) struct StepStart {
     pub(crate) impulses: Vec<f64>,
 }
 
-impl<C: Cavity, L: ContactLaw, M: Mount> State<C, L, M> {
+impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized> State<C, L, M> {
     /// Begins a step of `time_step` (s).
     pub(crate) fn begin_step(&mut self, time_step: f64) {
         self.time_step = time_step;

@@ -21,7 +21,7 @@ pub(crate) struct MountCoordinates {
 }
 
 impl MountCoordinates {
-    pub(crate) fn new<M: Mount>(mount: &M, cavities: usize) -> Self {
+    pub(crate) fn new<M: Mount + ?Sized>(mount: &M, cavities: usize) -> Self {
         let degrees = mount.degrees();
         let count = degrees + PER_CAVITY * cavities;
         let mut state = Self {

@@ -32,7 +32,7 @@ impl Setup {
     }
 
     /// The setup of `state`, as it was built, under steps of `time_step` (s).
-    pub(crate) fn new<C: Cavity, L: ContactLaw, M: Mount>(
+    pub(crate) fn new<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
         state: &State<C, L, M>,
         time_step: f64,
     ) -> Self {

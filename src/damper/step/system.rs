@@ -11,7 +11,7 @@ use crate::observer::Observer;
 use crate::step_error::StepError;
 
 /// The engine in one step, as an integrator sees it.
-pub(super) struct SteppedSystem<'a, C, L: ContactLaw, M, D, O> {
+pub(super) struct SteppedSystem<'a, C, L: ContactLaw, M: ?Sized, D, O> {
     engine: &'a mut Engine<C, L, M, D>,
     observer: &'a mut O,
     /// When the step began, s.
@@ -20,7 +20,7 @@ pub(super) struct SteppedSystem<'a, C, L: ContactLaw, M, D, O> {
     fresh: bool,
 }
 
-impl<'a, C, L: ContactLaw, M, D, O> SteppedSystem<'a, C, L, M, D, O> {
+impl<'a, C, L: ContactLaw, M: ?Sized, D, O> SteppedSystem<'a, C, L, M, D, O> {
     /// At the beginning of a step.
     pub(super) const fn new(
         engine: &'a mut Engine<C, L, M, D>,
@@ -40,7 +40,7 @@ impl<C, L, M, D, O> System for SteppedSystem<'_, C, L, M, D, O>
 where
     C: Cavity,
     L: ContactLaw,
-    M: Mount,
+    M: Mount + ?Sized,
     D: Detector,
     O: Observer,
 {

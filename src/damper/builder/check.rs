@@ -1,0 +1,178 @@
+//! What a damper is built from: whatever can be refused is.
+//!
+//! What does not depend on the types of the parts is not a method of the builder, so that it is compiled once.
+
+use glam::DVec3;
+
+use super::{BuildError, Builder};
+use crate::cavity::Cavity;
+use crate::damper::neighbours::BLOCK;
+use crate::error::{Bound, ValueError};
+use crate::mount::Mount;
+use crate::particle::Particle;
+
+/// The most walls: each block of particles keeps a sum for each.
+const MOST_WALLS: u64 = 1 << 20;
+
+impl<C: Cavity, L, M: Mount, D, I> Builder<C, L, M, D, I> {
+    /// Refuses numbers that cannot be, and a mount that jumps.
+    pub(super) fn check_numbers(&self) -> Result<(), BuildError> {
+        let fractions = [self.initial_overlap, self.overlap_limit];
+        check_numbers(self.gravity, self.time_step, self.start_time, fractions)?;
+        if let Some(jump) = self.mount.jump() {
+            return Err(BuildError::BaseJumps(jump));
+        }
+        if self.cavities.iter().any(Cavity::is_planar) {
+            in_plane("gravity", self.gravity)?;
+        }
+        Ok(())
+    }
+}
+
+fn check_numbers(
+    gravity: DVec3,
+    time_step: Option<f64>,
+    start_time: f64,
+    [initial_overlap, overlap_limit]: [f64; 2],
+) -> Result<(), ValueError> {
+    for component in gravity.to_array() {
+        Bound::Finite.check("gravity (m/s^2)", component)?;
+    }
+    if let Some(time_step) = time_step {
+        Bound::Positive.check("time step (s)", time_step)?;
+    }
+    Bound::Finite.check("start time (s)", start_time)?;
+    Bound::NonNegative.check("initial overlap (fraction of a radius)", initial_overlap)?;
+    if overlap_limit.is_nan() || overlap_limit <= 0.0 {
+        Bound::Positive.check("overlap limit (fraction of a radius)", overlap_limit)?;
+    }
+    Ok(())
+}
+
+/// Refuses more particles or walls than can be numbered; the number of walls.
+pub(super) fn check_counts<C: Cavity>(
+    particles: &[Particle],
+    cavities: &[C],
+) -> Result<usize, BuildError> {
+    let limit = u32::MAX as usize - BLOCK;
+    if particles.len() > limit {
+        return Err(BuildError::TooManyParticles {
+            count: particles.len(),
+            limit,
+        });
+    }
+    let walls = cavities.iter().map(|cavity| u64::from(cavity.walls()));
+    let walls = walls.sum();
+    if walls > MOST_WALLS {
+        return Err(BuildError::TooManyWalls {
+            count: walls,
+            limit: MOST_WALLS,
+        });
+    }
+    Ok(walls as usize)
+}
+
+/// What a cavity has room for.
+pub(super) struct Room {
+    planar: bool,
+    /// The least width of its bounds, m.
+    extent: f64,
+    /// The radius of its sharpest inner edge, m.
+    rounding: f64,
+}
+
+/// What each of `cavities` has room for.
+pub(super) fn rooms<C: Cavity>(cavities: &[C]) -> Vec<Room> {
+    let room = |cavity: &C| {
+        let planar = cavity.is_planar();
+        let [low, high] = cavity.bounds();
+        let size = high - low;
+        Room {
+            planar,
+            extent: if planar {
+                size.x.min(size.y)
+            } else {
+                size.min_element()
+            },
+            rounding: cavity.rounding(),
+        }
+    };
+    cavities.iter().map(room).collect()
+}
+
+/// Refuses particles that cannot be, or not in their cavity.
+pub(super) fn check_particles(
+    particles: &[Particle],
+    rooms: &[Room],
+    initial_overlap: f64,
+) -> Result<(), BuildError> {
+    let radii = particles.iter().map(|particle| particle.radius);
+    let squeeze = initial_overlap * radii.fold(f64::INFINITY, f64::min);
+    for (number, particle) in particles.iter().enumerate() {
+        check_particle(particle).map_err(|error| BuildError::Particle {
+            particle: number,
+            error,
+        })?;
+        let Some(room) = rooms.get(particle.cavity as usize) else {
+            return Err(BuildError::UnknownCavity {
+                particle: number,
+                cavity: particle.cavity,
+                cavities: rooms.len(),
+            });
+        };
+        if room.planar {
+            in_plane("particle position", particle.position)?;
+            in_plane("particle velocity", particle.velocity)?;
+            if particle.spin.x != 0.0 || particle.spin.y != 0.0 {
+                return Err(BuildError::OutOfPlane {
+                    quantity: "particle spin",
+                    value: particle.spin,
+                });
+            }
+        }
+        // Pressed into two opposite walls at once.
+        if 2.0 * particle.radius > room.extent + 2.0 * squeeze {
+            return Err(BuildError::TooLarge {
+                particle: number,
+                diameter: 2.0 * particle.radius,
+                extent: room.extent,
+            });
+        }
+        if particle.radius > room.rounding {
+            return Err(BuildError::TooLargeForEdge {
+                particle: number,
+                radius: particle.radius,
+                rounding: room.rounding,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_particle(particle: &Particle) -> Result<(), ValueError> {
+    Bound::Positive.check("radius (m)", particle.radius)?;
+    Bound::Positive.check("mass (kg)", particle.mass)?;
+    // Their reciprocals have to be finite.
+    let smallest = Bound::AtLeast(f64::MIN_POSITIVE);
+    smallest.check("mass (kg)", particle.mass)?;
+    smallest.check("moment of inertia (kg m^2)", particle.inertia())?;
+    for (quantity, vector) in [
+        ("position (m)", particle.position),
+        ("velocity (m/s)", particle.velocity),
+        ("spin (rad/s)", particle.spin),
+    ] {
+        for component in vector.to_array() {
+            Bound::Finite.check(quantity, component)?;
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a vector that leaves the plane z = 0.
+pub(super) fn in_plane(quantity: &'static str, value: DVec3) -> Result<(), BuildError> {
+    if value.z == 0.0 {
+        Ok(())
+    } else {
+        Err(BuildError::OutOfPlane { quantity, value })
+    }
+}
