@@ -133,6 +133,9 @@ mod periods;
 mod random;
 pub mod response;
 mod rotation;
+#[cfg(all(debug_assertions, not(test)))]
+#[doc(hidden)]
+pub mod shared;
 pub mod statistics;
 mod step_error;
 mod tasks;

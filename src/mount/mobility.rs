@@ -105,7 +105,12 @@ pub(crate) struct Mobilities {
 
 impl Mobilities {
     /// Those of a mount in a state.
-    pub(crate) fn new<M: Mount + ?Sized>(mount: &M, time: f64, state: [&[f64]; 2], cavities: usize) -> Self {
+    pub(crate) fn new<M: Mount + ?Sized>(
+        mount: &M,
+        time: f64,
+        state: [&[f64]; 2],
+        cavities: usize,
+    ) -> Self {
         let mut new = Self {
             cavities,
             ..Self::default()
