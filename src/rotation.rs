@@ -2,7 +2,8 @@
 
 use glam::{DQuat, DVec3};
 
-/// Squares of angles below which series serve.
+/// Squares of angles below which series serve: there, the terms that they leave out are below 1e-15 of the
+/// whole, and above it, what cancels in the closed forms costs no more than 1e-12.
 const SMALL: f64 = 1e-3;
 
 /// The rotation by a vector.

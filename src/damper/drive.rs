@@ -11,7 +11,7 @@ use crate::mount::{Driven, Motion};
 use crate::observer::Observer;
 use crate::step_error::StepError;
 
-/// The most steps of one call.
+/// The most steps of one call: an interval in a wrong unit is an error, and not a call that never ends.
 const MOST_STEPS: f64 = 1e9;
 
 impl<C, L, D, I> Damper<C, L, Driven, D, I>

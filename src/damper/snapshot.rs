@@ -1,4 +1,8 @@
 //! Snapshots: the whole state of a damper, apart from how it is set up.
+//!
+//! In: a damper between steps. Out: columns that can be kept and written; and the other way, a damper that goes on
+//! from them, once they have been checked. Called by programs alone, and by what serves them: records of a host's
+//! session, dampers of unlike make, curves that go on from one point to the next.
 
 use std::fmt;
 

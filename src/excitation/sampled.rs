@@ -50,7 +50,8 @@ pub enum Beyond {
     Continue,
 }
 
-/// A part of the largest rate that passes for rest where a record ends.
+/// A part of the largest rate that passes for rest where a record ends: measured records end in noise of some
+/// parts in a thousand.
 const AT_REST: f64 = 0.01;
 
 /// Why a record is of no use.

@@ -1,11 +1,16 @@
 use super::{ContactLaw, ForceLaw, ImpulseLaw, LawError, LawKind, SolverParameters};
 use crate::contact::{Bodies, Contact, ContactForce, Onset, Stored};
 
-/// One of two contact laws of one kind, chosen at run time; of more than two if they are nested. What two
-/// bodies and a contact have to keep under either law differs in type, which a boxed law cannot hide.
+/// One of two contact laws of one kind, chosen at run time; of more than two if they are nested.
 ///
-/// The bits are those of the law that was chosen. It costs a look at each contact which law that is. Where
-/// laws of unlike kinds are to choose from, so is the damper: see [`DrivenDamper`](crate::DrivenDamper).
+/// Laws that keep the same for two bodies and for a contact can be boxed like every other part. Mostly they
+/// do not: [`Coefficients`](ContactLaw::Coefficients) and [`Memory`](ForceLaw::Memory) lie side by side in
+/// memory, contact by contact, and a box that hid their types would have to look for each of them elsewhere.
+/// An `EitherLaw` keeps them where they are.
+///
+/// The bits are those of the law that was chosen. It costs a look at each contact which law that is, and the
+/// memories of both. Where laws of unlike kinds are to choose from, so is the damper: see
+/// [`DrivenDamper`](crate::DrivenDamper).
 ///
 /// ```
 /// use particle_damper::{Damper, EitherLaw, HertzMindlin, HertzTsuji, Material, Slot};
@@ -19,6 +24,39 @@ use crate::contact::{Bodies, Contact, ContactForce, Onset, Stored};
 /// let damper = Damper::builder(Slot::paper(), law).time_step(1e-5).build()?;
 /// # Ok(())
 /// # }
+/// ```
+///
+/// All the force laws that a program knows, behind one type and chosen by name:
+/// ```
+/// use particle_damper::{Damping, EitherLaw, Friction, HertzMindlin, HertzTsuji, Material};
+/// # use particle_damper::{Bodies, Contact, ContactForce, ContactLaw, ForceLaw, Forces, LawError};
+/// # struct Spring;
+/// # impl ContactLaw for Spring {
+/// #     type Kind = Forces;
+/// #     type Coefficients = ();
+/// #     fn coefficients(&self, _: &Bodies) -> Result<(), LawError> { Ok(()) }
+/// # }
+/// # impl ForceLaw for Spring {
+/// #     type Memory = ();
+/// #     fn force(&self, (): &(), contact: &Contact, (): &()) -> ContactForce {
+/// #         ContactForce::new(1e4 * contact.overlap, particle_damper::glam::DVec3::ZERO)
+/// #     }
+/// # }
+///
+/// type AnyForceLaw = EitherLaw<HertzTsuji, EitherLaw<HertzMindlin, Spring>>; // `Spring` is the program's own
+///
+/// fn named(name: &str, material: Material) -> Option<AnyForceLaw> {
+///     let tsuji = HertzTsuji::new(material);
+///     Some(match name {
+///         "paper" => EitherLaw::First(tsuji),
+///         "printed friction" => EitherLaw::First(tsuji.friction(Friction::as_printed())),
+///         "tsuji" => EitherLaw::First(tsuji.damping(Damping::Tsuji)),
+///         "mindlin" => EitherLaw::Second(EitherLaw::First(HertzMindlin::new(material))),
+///         "spring" => EitherLaw::Second(EitherLaw::Second(Spring)),
+///         _ => return None,
+///     })
+/// }
+/// assert!(named("mindlin", Material::acrylic()).is_some());
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EitherLaw<A, B> {

@@ -8,7 +8,9 @@ mod fading;
 
 use fading::Fading;
 
-/// A step moves a particle at the reference speed by at most this fraction of the smaller radius.
+/// A step moves a particle at the reference speed by at most this fraction of the smaller radius. In the
+/// paper's damper steps of a thirtieth and of a fifteenth lead to overlaps of 0.13 and 0.25 radii (below), in
+/// proportion: a fifth would lead to some 0.75, where overlaps are an error.
 const TRAVEL: f64 = 0.2;
 
 /// The restitution coefficient turned into a force over one step (the paper's Sec. 4.3), for any

@@ -2,7 +2,8 @@ use glam::{DQuat, DVec3};
 
 use crate::rotation::exp;
 
-/// How far the length of an orientation may be off one: what a host's rounding, or single precision, leaves.
+/// How far the length of an orientation may be off one: single precision leaves 1e-7, and a host that adds up
+/// rates without setting the length right leaves an eighth of the square of the angle of a step, 1e-3 at 0.09.
 const UNIT: f64 = 1e-3;
 
 /// How a container moves, as a rigid body: where its origin is and how it stands, velocity and angular

@@ -4,7 +4,8 @@ use super::{Load, Motion, Mount, MountEnergy};
 use crate::error::{Bound, ValueError};
 use crate::rotation::exp;
 
-/// The most rounds in which the middle of a turn is found.
+/// The most rounds in which the middle of a turn is found. Each leaves about half of the angle, in radians,
+/// of what the last one left, if the body is no rod: at a tenth of a radian to the step, 12 reach the last digit.
 const ROUNDS: usize = 16;
 
 /// A rigid body that moves and turns freely, with the container fixed to it: in space with six degrees of

@@ -75,6 +75,41 @@ fn every_part_is_chosen_at_run_time_to_the_same_bits() {
     assert_eq!(plain.coordinates(), chosen.coordinates());
 }
 
+type AnyForceLaw = EitherLaw<HertzTsuji, EitherLaw<HertzMindlin, Silent>>;
+
+/// A law by the name that a file gives it.
+fn named(law: &str) -> Option<AnyForceLaw> {
+    let acrylic = Material::acrylic();
+    Some(match law {
+        "tsuji" => EitherLaw::First(HertzTsuji::new(acrylic)),
+        "mindlin" => EitherLaw::Second(EitherLaw::First(HertzMindlin::new(acrylic))),
+        "silent" => EitherLaw::Second(EitherLaw::Second(Silent)),
+        _ => return None,
+    })
+}
+
+#[test]
+fn one_of_three_laws_is_chosen_by_name_to_the_bits_of_that_law() {
+    fn end<L: ContactLaw>(law: L) -> Vec<Particle> {
+        let builder = Damper::builder(Slot::paper(), law).particles(grains());
+        let mut damper = builder.time_step(1e-5).build().unwrap();
+        for _ in 0..5000 {
+            damper.step().unwrap();
+        }
+        damper.particles().collect()
+    }
+    let chosen = ["tsuji", "mindlin", "silent"].map(|law| end(named(law).unwrap()));
+    let acrylic = Material::acrylic();
+    let own = [
+        end(HertzTsuji::new(acrylic)),
+        end(HertzMindlin::new(acrylic)),
+        end(Silent),
+    ];
+    assert_eq!(chosen, own);
+    assert!(named("hooke").is_none());
+    assert!(own[0] != own[1] && own[1] != own[2]);
+}
+
 #[test]
 fn dampers_of_unlike_make_are_driven_and_restored_in_one_list() {
     let strict = HertzTsuji::new(Material::acrylic());

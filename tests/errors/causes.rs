@@ -210,6 +210,26 @@ fn a_prescribed_motion_may_have_kinks() {
     }
 }
 
+/// A belt that turns back at once was refused where it did so near the end of a step.
+#[test]
+fn a_prescribed_motion_may_turn_back_at_once() {
+    for start in [0.0101, 0.010_110, 0.010_133, 0.010_199] {
+        let there_and_back = Prescribed(|t: f64| {
+            let velocity = if t > start { -0.5 } else { 0.5 };
+            Motion::at(DVec3::X * (velocity * (t - start)), DVec3::X * velocity)
+        });
+        let mut damper = Damper::builder(Slot::paper(), coarse())
+            .mount(there_and_back)
+            .particles(bed())
+            .time_step(1e-4)
+            .build()
+            .unwrap();
+        for _ in 0..200 {
+            damper.step().unwrap();
+        }
+    }
+}
+
 #[test]
 fn a_strict_law_that_refuses_dead_impacts_names_the_coarse_one() {
     let mut table = Table::default();

@@ -8,7 +8,8 @@ use super::solid::{Placed, Profile, Solid};
 /// How far out a room may reach, over the size of what it is made of.
 const FAR: f64 = 1e4;
 
-/// What places may be wrong by, in the same measure.
+/// What places may be wrong by, in the same measure. Where three planes meet is known to some 1e-16 of how far
+/// they reach, 1e4, over the determinant of their normals.
 const EXACT: f64 = 1e-9;
 
 /// Everything on one side of a plane: `normal . p >= offset`.

@@ -72,8 +72,8 @@ pub(super) fn check_counts<C: Cavity>(
     Ok(walls as usize)
 }
 
-/// What a cavity has room for.
-pub(super) struct Room {
+/// What a cavity bears.
+pub(super) struct CavityLimits {
     planar: bool,
     /// The least width of its bounds, m.
     extent: f64,
@@ -81,13 +81,13 @@ pub(super) struct Room {
     rounding: f64,
 }
 
-/// What each of `cavities` has room for.
-pub(super) fn rooms<C: Cavity>(cavities: &[C]) -> Vec<Room> {
-    let room = |cavity: &C| {
+/// What each of `cavities` bears.
+pub(super) fn cavity_limits<C: Cavity>(cavities: &[C]) -> Vec<CavityLimits> {
+    let limits = |cavity: &C| {
         let planar = cavity.is_planar();
         let [low, high] = cavity.bounds();
         let size = high - low;
-        Room {
+        CavityLimits {
             planar,
             extent: if planar {
                 size.x.min(size.y)
@@ -97,13 +97,13 @@ pub(super) fn rooms<C: Cavity>(cavities: &[C]) -> Vec<Room> {
             rounding: cavity.rounding(),
         }
     };
-    cavities.iter().map(room).collect()
+    cavities.iter().map(limits).collect()
 }
 
 /// Refuses particles that cannot be, or not in their cavity.
 pub(super) fn check_particles(
     particles: &[Particle],
-    rooms: &[Room],
+    limits: &[CavityLimits],
     initial_overlap: f64,
 ) -> Result<(), BuildError> {
     let radii = particles.iter().map(|particle| particle.radius);
@@ -113,14 +113,14 @@ pub(super) fn check_particles(
             particle: number,
             error,
         })?;
-        let Some(room) = rooms.get(particle.cavity as usize) else {
+        let Some(limits) = limits.get(particle.cavity as usize) else {
             return Err(BuildError::UnknownCavity {
                 particle: number,
                 cavity: particle.cavity,
-                cavities: rooms.len(),
+                cavities: limits.len(),
             });
         };
-        if room.planar {
+        if limits.planar {
             in_plane("particle position", particle.position)?;
             in_plane("particle velocity", particle.velocity)?;
             if particle.spin.x != 0.0 || particle.spin.y != 0.0 {
@@ -131,18 +131,18 @@ pub(super) fn check_particles(
             }
         }
         // Pressed into two opposite walls at once.
-        if 2.0 * particle.radius > room.extent + 2.0 * squeeze {
+        if 2.0 * particle.radius > limits.extent + 2.0 * squeeze {
             return Err(BuildError::TooLarge {
                 particle: number,
                 diameter: 2.0 * particle.radius,
-                extent: room.extent,
+                extent: limits.extent,
             });
         }
-        if particle.radius > room.rounding {
+        if particle.radius > limits.rounding {
             return Err(BuildError::TooLargeForEdge {
                 particle: number,
                 radius: particle.radius,
-                rounding: room.rounding,
+                rounding: limits.rounding,
             });
         }
     }

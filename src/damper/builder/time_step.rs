@@ -7,10 +7,11 @@ use crate::error::Bound;
 use crate::law::{ContactLaw, LawError};
 use crate::mount::Mount;
 
-/// Steps to a period of a mount's highest natural frequency.
+/// Steps to a period of a mount's highest natural frequency: Verlet's method rings faster by a part
+/// (2 pi/n)^2/24 of n steps to a period, 0.4 %.
 const PER_PERIOD: f64 = 20.0;
 
-/// Steps to the shortest feature of an excitation.
+/// Steps to the shortest feature of an excitation, which is half a period of a sine: as many as above.
 const PER_FEATURE: f64 = 10.0;
 
 /// A longest step (s), and what sets it.

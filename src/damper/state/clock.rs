@@ -6,7 +6,7 @@ use crate::digest::Digest;
 /// are each rounded by 0.93e-9 s.
 const ROUNDING: f64 = 2e-9;
 
-/// The largest part of a step that passes for rounding.
+/// The largest part of a step that passes for rounding: what steps differ by, it can be no matter of accuracy.
 const SLACK: f64 = 0.01;
 
 /// Counts equal steps, so that time does not gather rounding errors.
