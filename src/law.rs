@@ -13,6 +13,7 @@ use crate::material::MaterialId;
 mod collision;
 mod damping;
 mod either;
+mod exponent;
 mod force_law;
 mod friction;
 mod hertz;

@@ -12,15 +12,21 @@ use crate::law::ContactLaw;
 use crate::parallel::Pool;
 
 mod block;
+mod columns;
+mod contacts;
 mod detection;
 mod findings;
+mod history;
 mod list;
+mod memories;
 mod rebuild;
 mod sort;
 
 pub(crate) use block::{BLOCK, Block, ContactHistory, ContactId};
 use block::{history_buffers, make_blocks, reserved_by, room_for};
-pub(crate) use list::{ContactRecord, NeighbourList, make_room};
+pub(crate) use columns::make_room;
+pub(crate) use history::ContactRecord;
+pub(crate) use list::NeighbourList;
 
 /// The broad and the narrow phase, and what they have found.
 #[derive(Clone)]

@@ -4,6 +4,7 @@ use super::{Bed, Detector, DetectorError, Pairs};
 use crate::error::Bound;
 
 mod lattice;
+mod reach;
 mod stencil;
 
 use lattice::{Lattice, Site};

@@ -1,5 +1,5 @@
+use super::exponent::Exponent;
 use super::hertz::ElasticImpact;
-use super::onset::Exponent;
 use crate::error::{Bound, ValueError};
 
 mod tsuji;

@@ -12,6 +12,7 @@
 //! is off by 0.013 instead of 0.060. Its price is 5 to 10 % of the time of a step.
 
 use super::damping::Ending;
+use super::exponent::Exponent;
 use super::normal::{Normal, NormalCoefficients, NormalForce};
 use crate::contact::{Contact, Onset};
 use crate::numbers::{at_least, at_most};
@@ -28,44 +29,6 @@ const SLOWED: f64 = 0.5;
 /// How often the end of a pull is worked out: with three rounds the restitution is within 0.1 % of that
 /// with twenty.
 const ENDINGS: usize = 3;
-
-/// Exponents of time that forces set in with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Exponent {
-    Quarter,
-    Half,
-    ThreeHalves,
-}
-
-impl Exponent {
-    /// Exponent p, and p (p-1) (p-2)/720.
-    const fn constants(self) -> (f64, f64) {
-        match self {
-            Self::Quarter => (0.25, 0.328_125 / 720.0),
-            Self::Half => (0.5, 0.375 / 720.0),
-            Self::ThreeHalves => (1.5, -0.375 / 720.0),
-        }
-    }
-
-    pub(super) fn of(self, base: f64) -> f64 {
-        let root = base.sqrt();
-        match self {
-            Self::Quarter => root.sqrt(),
-            Self::Half => root,
-            Self::ThreeHalves => base * root,
-        }
-    }
-
-    /// What the evaluation at `part` of a step (0 to 1) after the touch has to give for t^p, t in
-    /// steps: -zeta(-p, 1 + part), by Euler and Maclaurin to four digits or better.
-    pub(super) fn sampled(self, part: f64) -> f64 {
-        let (p, third) = self.constants();
-        let x = 1.0 + part;
-        let inverse = 1.0 / x;
-        let cube = inverse * inverse * inverse;
-        self.of(x) * (x / (p + 1.0) - 0.5 + p / 12.0 * inverse - third * cube)
-    }
-}
 
 /// What evaluations see of a spring and a dashpot where a contact begins or ends.
 #[derive(Debug, Clone, Copy)]

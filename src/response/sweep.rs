@@ -1,69 +1,16 @@
-use std::fmt;
 use std::ops::ControlFlow;
 
 use super::run::telling;
-use super::{Branches, Period, Point, Progress, Response, ResponseCurve, ResponseError, Structure};
+use super::{
+    Branches, Line, Period, Point, Progress, Response, ResponseCurve, ResponseError, Structure,
+    Swept,
+};
 use crate::cavity::Cavity;
 use crate::damper::Damper;
 use crate::detector::Detector;
 use crate::integrator::Integrator;
 use crate::law::ContactLaw;
 use crate::tasks::{Hear, Ledger, Told, spread};
-
-/// What a sweep goes through.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Swept {
-    /// The amplitude of the drive.
-    Amplitude,
-    /// The frequency of the drive.
-    Frequency,
-}
-
-/// One line of a sweep, up and down: a unit of work by itself, as its points hang together.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Line {
-    /// Number of particles N, in each cavity.
-    pub particles: usize,
-    /// Seed of the initial filling.
-    pub seed: u64,
-    /// What is swept.
-    pub swept: Swept,
-    /// The other one: the frequency in Hz where the amplitude is swept, else the amplitude.
-    pub other: f64,
-}
-
-impl Line {
-    fn at(&self, value: f64) -> Point {
-        let (amplitude, frequency) = match self.swept {
-            Swept::Amplitude => (value, self.other),
-            Swept::Frequency => (self.other, value),
-        };
-        Point {
-            particles: self.particles,
-            seed: self.seed,
-            amplitude,
-            frequency,
-        }
-    }
-}
-
-impl fmt::Display for Line {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            particles,
-            seed,
-            swept,
-            other,
-        } = self;
-        write!(f, "{particles} particles, seed {seed}, ")?;
-        match swept {
-            Swept::Amplitude => write!(f, "{other} Hz"),
-            Swept::Frequency => write!(f, "amplitude {other}"),
-        }
-    }
-}
 
 impl<L, C, D, I, S> ResponseCurve<L, C, D, I, S> {
     /// The lines of a [sweep](Self::sweep): every combination of number of particles, seed and what is not

@@ -218,7 +218,7 @@ fn evaluate_pairs<C: Cavity, L: ForceLaw, S: Space, const END: bool>(
     let only = view.coefficients.only_pair();
     batch.evaluate::<SpherePair, S, END>(view.law, only, kinds, view.step_time);
     if view.law.corrects_onset() {
-        let acceleration = |n: usize| acceleration_of_pair(view, bodies[n]);
+        let acceleration = |n: usize| view.acceleration_of_pair(bodies[n]);
         batch.correct_onsets::<SpherePair, END>(view.law, only, view.step_time, acceleration);
     }
     if END {
@@ -251,14 +251,4 @@ fn evaluate_walls<C: Cavity, L: ForceLaw, S: Space, const END: bool>(
     if END {
         list.store_memories(run, view.stamp.wrapping_add(1), batch.advanced());
     }
-}
-
-/// How the centre of the first body was accelerated relative to that of the second when forces were
-/// evaluated last, in m/s^2.
-pub(super) fn acceleration_of_pair<C: Cavity, L: ContactLaw>(
-    view: &StateView<'_, C, L>,
-    bodies: [u32; 2],
-) -> DVec3 {
-    let [first, second] = bodies.map(|index| view.acceleration.get(index as usize));
-    first - second
 }

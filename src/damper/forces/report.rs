@@ -3,7 +3,6 @@
 use std::ops::Range;
 
 use super::batch::{Batch, SpherePair, SphereWall};
-use super::evaluate::acceleration_of_pair;
 use crate::cavity::Cavity;
 use crate::contact::Partner;
 use crate::damper::neighbours::NeighbourList;
@@ -27,7 +26,7 @@ pub(super) fn report_pairs<C: Cavity, L: ForceLaw>(
         let prepared = list.prepared(candidate);
         let (first, second) = (view.species[index], view.species[other]);
         let kind = view.coefficients.pair(first, second, prepared);
-        let acceleration = acceleration_of_pair(view, bodies);
+        let acceleration = view.acceleration_of_pair(bodies);
         let (contact, force, memory) =
             batch.evaluate_contact::<SpherePair>(view.law, &kind, n, view.step_time, acceleration);
         observer.contact(&ContactEvent {

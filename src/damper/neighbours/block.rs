@@ -13,7 +13,8 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::list::{ContactRecord, NeighbourList};
+use super::history::ContactRecord;
+use super::list::NeighbourList;
 use crate::cavity::Cavity;
 use crate::contact::Partner;
 use crate::damper::state::{Compartment, Plane, Rows, Space, StateView, Volume};

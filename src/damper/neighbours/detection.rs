@@ -5,7 +5,8 @@ use glam::DVec3;
 
 use super::Neighbours;
 use super::block::{Block, ContactHistory, Listing};
-use super::list::{ContactRecord, make_room};
+use super::columns::make_room;
+use super::history::ContactRecord;
 use crate::cavity::Cavity;
 use crate::damper::state::{Compartment, Particles, State};
 use crate::detector::{Bed, Detector, DetectorError};

@@ -1,7 +1,8 @@
 //! Listing the candidates of a block anew.
 
 use super::block::{Block, ContactHistory, Listing};
-use super::list::{ContactRecord, make_room, pair};
+use super::columns::make_room;
+use super::history::{ContactRecord, pair};
 use crate::cavity::Cavity;
 use crate::damper::state::StateView;
 use crate::law::{ContactLaw, ContactMemory, LawError};

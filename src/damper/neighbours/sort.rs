@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::Neighbours;
 use super::block::BLOCK;
-use super::list::ContactRecord;
+use super::history::ContactRecord;
 use crate::cavity::Cavity;
 use crate::damper::state::{Particles, State};
 use crate::detector::Detector;

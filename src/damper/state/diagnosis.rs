@@ -117,7 +117,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized> State<C, L, M> {
         })
     }
 
-    /// Slot and speed of the particle that is fastest relative to its container.
+    /// Index and speed of the particle that is fastest relative to its container.
     fn fastest(&self) -> (usize, f64) {
         let mut fastest = (0, 0.0);
         for compartment in &self.model.compartments {

@@ -83,6 +83,14 @@ impl<C: Cavity, L: ContactLaw> StateView<'_, C, L> {
         self.compartment_of_wall(wall).wall(wall, position)
     }
 
+    /// How the centre of the first body was accelerated relative to that of the second when forces were
+    /// evaluated last, in m/s^2.
+    #[inline(always)]
+    pub(crate) fn acceleration_of_pair(&self, bodies: [u32; 2]) -> DVec3 {
+        let [first, second] = bodies.map(|index| self.acceleration.get(index as usize));
+        first - second
+    }
+
     /// How a particle was accelerated relative to a wall when forces were evaluated last, as far as the
     /// wall's rotation goes, in m/s^2.
     #[inline(always)]

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::stencil::Reach;
+use super::reach::Reach;
 use crate::detector::Bed;
 
 /// A cell as a row and a place in it.
