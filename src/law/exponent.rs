@@ -40,3 +40,47 @@ impl Exponent {
         self.of(x) * (x / (p + 1.0) - 0.5 + p / 12.0 * inverse - third * cube)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_abs_diff_eq;
+
+    /// -zeta(-p, 1), Abramowitz & Stegun 23.2 and tables.
+    #[test]
+    fn at_the_touch_it_is_riemanns_zeta() {
+        assert_abs_diff_eq!(
+            Exponent::ThreeHalves.sampled(0.0),
+            0.025_485,
+            epsilon = 1e-4
+        );
+        assert_abs_diff_eq!(Exponent::Half.sampled(0.0), 0.207_886, epsilon = 1e-4);
+    }
+
+    #[test]
+    fn a_late_first_evaluation_is_as_good_as_an_early_one_before_it() {
+        for power in [Exponent::Quarter, Exponent::Half, Exponent::ThreeHalves] {
+            // Just one step after the touch, or at the touch and one step later.
+            let (late, early) = (power.sampled(1.0), 1.0 + power.sampled(0.0));
+            assert_abs_diff_eq!(late, early, epsilon = 2e-4);
+        }
+    }
+
+    /// Sums of t^p from the touch on, the first term replaced, against the integral.
+    #[test]
+    fn sums_become_integrals() {
+        for power in [Exponent::Quarter, Exponent::Half, Exponent::ThreeHalves] {
+            let (p, _) = power.constants();
+            for part in [0.01, 0.3, 0.62, 1.0] {
+                let count = 2000;
+                let rest: f64 = (1..count).map(|n| power.of(f64::from(n) + part)).sum();
+                let end = f64::from(count) + part;
+                // Half of the last term, and its slope: Euler and Maclaurin at the smooth end.
+                let last = 0.5 * power.of(end) - p / 12.0 * power.of(end) / end;
+                let sum = power.sampled(part) + rest + last;
+                let exact = power.of(end) * end / (p + 1.0);
+                assert_abs_diff_eq!(sum, exact, epsilon = 2e-4);
+            }
+        }
+    }
+}

@@ -3,8 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::turning::TurningContainer;
-use crate::cavity::Cavity;
-use crate::damper::state::{Compartment, MountCoordinates, Space, State};
+use crate::damper::state::{Compartment, Space, State};
 use crate::law::ContactLaw;
 use crate::mount::{Load, Mobility, Motion, Mount};
 
@@ -91,107 +90,149 @@ impl<S: Space> Containers<S> {
 
 impl<S: Space> Containers<S> {
     /// The containers' free velocities over a step of `time_step` (s), and how they yield.
-    pub(super) fn set_free<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
+    pub(super) fn set_free<C, L: ContactLaw, M: Mount + ?Sized>(
         &mut self,
         state: &State<C, L, M>,
         time_step: f64,
     ) {
-        let MountCoordinates {
-            position, velocity, ..
-        } = &state.mount_coordinates;
-        let degrees = state.mount.degrees();
-        let (position, velocity) = (&position[..degrees], &velocity[..degrees]);
+        self.loads.clear();
         let cavities = state.model.compartments.len();
-        let Containers {
-            each,
-            turning,
-            starts,
-            responses,
-            mobilities,
-            middle: [middle, before],
-            end: [coordinates, rates],
-            accelerations,
-            loads,
-        } = self;
-        loads.clear();
-        loads.resize(cavities, Load::default());
-        accelerations.clear();
-        accelerations.resize(degrees, 0.0);
-        let advance = |from: &[f64], by: &[f64], time: f64, to: &mut Vec<f64>| {
-            to.clear();
-            to.extend(from.iter().zip(by).map(|(from, by)| from + by * time));
-        };
-        // Of second order: with the accelerations at the middle of the step.
-        let half = 0.5 * time_step;
-        state
-            .mount
-            .accelerate(state.time, position, velocity, loads, accelerations);
-        advance(position, velocity, half, middle);
-        advance(velocity, accelerations, half, before);
-        let mut rates_under = |loads: &[Load], rates: &mut Vec<f64>| {
-            let time = state.time + half;
-            state
-                .mount
-                .accelerate(time, middle, before, loads, accelerations);
-            advance(velocity, accelerations, time_step, rates);
-        };
-        let end = state.time + time_step;
-        rates_under(loads, rates);
-        // How a container stands counts where it turns alone.
-        let turned = |compartment: &Compartment<C>| compartment.turned;
-        if state.model.compartments.iter().any(turned) {
-            advance(middle, rates, half, coordinates);
-        } else {
-            coordinates.clear();
-            coordinates.extend_from_slice(position);
-        }
-        let at_end = |rates: &[f64], cavity| state.mount.motion(end, coordinates, rates, cavity);
-
-        each.clear();
-        turning.clear();
-        starts.clear();
+        self.loads.resize(cavities, Load::default());
+        self.go_halfway(state, time_step);
+        self.set_rates(state, time_step);
+        self.set_coordinates(state, time_step);
+        self.each.clear();
+        self.turning.clear();
+        self.starts.clear();
         let mut turns = false;
         for (cavity, compartment) in state.model.compartments.iter().enumerate() {
-            let (start, motion) = (compartment.motion, at_end(rates, cavity));
-            each.push(Container::new(&start, &motion, state.gravity * time_step));
-            turning.push(TurningContainer::new(&start, &motion));
-            starts.push(start);
+            let motion = self.at_end(state, time_step, cavity);
+            let start = compartment.motion;
+            let fall = state.gravity * time_step;
+            self.each.push(Container::new(&start, &motion, fall));
+            self.turning.push(TurningContainer::new(&start, &motion));
+            self.starts.push(start);
             turns |= compartment.turned || !motion.is_translation();
         }
-        responses.clear();
-        mobilities.clear();
         if !turns {
-            turning.clear();
+            self.turning.clear();
         }
-        if degrees == 0 {
+        self.set_responses(state, time_step, turns);
+    }
+
+    /// The mount in the middle of the step, without loads.
+    fn go_halfway<C, L: ContactLaw, M: Mount + ?Sized>(
+        &mut self,
+        state: &State<C, L, M>,
+        time_step: f64,
+    ) {
+        let (position, velocity) = own(state);
+        self.accelerations.clear();
+        self.accelerations.resize(velocity.len(), 0.0);
+        let rates = &mut self.accelerations;
+        let mount = &state.mount;
+        mount.accelerate(state.time, position, velocity, &self.loads, rates);
+        let [middle, before] = &mut self.middle;
+        advance(position, velocity, 0.5 * time_step, middle);
+        advance(velocity, rates, 0.5 * time_step, before);
+    }
+
+    /// The mount's rates at the end of the step under the loads, of second order: with the accelerations at its
+    /// middle.
+    fn set_rates<C, L: ContactLaw, M: Mount + ?Sized>(
+        &mut self,
+        state: &State<C, L, M>,
+        time_step: f64,
+    ) {
+        let [middle, before] = &self.middle;
+        let time = state.time + 0.5 * time_step;
+        let accelerations = &mut self.accelerations;
+        let mount = &state.mount;
+        mount.accelerate(time, middle, before, &self.loads, accelerations);
+        let (_, velocity) = own(state);
+        advance(velocity, accelerations, time_step, &mut self.end[1]);
+    }
+
+    /// The mount's coordinates at the end of the step: how a container stands counts where it turns alone.
+    fn set_coordinates<C, L: ContactLaw, M: Mount + ?Sized>(
+        &mut self,
+        state: &State<C, L, M>,
+        time_step: f64,
+    ) {
+        let [coordinates, rates] = &mut self.end;
+        let turned = |compartment: &Compartment<C>| compartment.turned;
+        if state.model.compartments.iter().any(turned) {
+            advance(&self.middle[0], rates, 0.5 * time_step, coordinates);
+        } else {
+            coordinates.clear();
+            coordinates.extend_from_slice(own(state).0);
+        }
+    }
+
+    /// How the container of a cavity moves at the end of the step.
+    fn at_end<C, L: ContactLaw, M: Mount + ?Sized>(
+        &self,
+        state: &State<C, L, M>,
+        time_step: f64,
+        cavity: usize,
+    ) -> Motion {
+        let [coordinates, rates] = &self.end;
+        let end = state.time + time_step;
+        state.mount.motion(end, coordinates, rates, cavity)
+    }
+
+    /// What unit impulses on each container do to all of them.
+    fn set_responses<C, L: ContactLaw, M: Mount + ?Sized>(
+        &mut self,
+        state: &State<C, L, M>,
+        time_step: f64,
+        turns: bool,
+    ) {
+        self.responses.clear();
+        self.mobilities.clear();
+        if state.mount.degrees() == 0 {
             return;
         }
-        responses.resize(cavities * cavities, DMat3::ZERO);
+        let cavities = self.each.len();
+        self.responses.resize(cavities * cavities, DMat3::ZERO);
         let axes = if turns {
-            mobilities.resize(cavities * cavities, Mobility::ZERO);
+            self.mobilities.resize(cavities * cavities, Mobility::ZERO);
             6
         } else {
             S::WIDTH
         };
         for struck in 0..cavities {
             for axis in 0..axes {
-                loads[struck] = Load::unit(axis);
-                rates_under(loads, rates);
-                loads[struck] = Load::default();
-                for (cavity, container) in each.iter().enumerate() {
-                    let motion = at_end(rates, cavity);
-                    let gained = motion.velocity - S::in_space(container.free);
+                self.loads[struck] = Load::unit(axis);
+                self.set_rates(state, time_step);
+                self.loads[struck] = Load::default();
+                for cavity in 0..cavities {
+                    let motion = self.at_end(state, time_step, cavity);
+                    let gained = motion.velocity - S::in_space(self.each[cavity].free);
                     let place = struck * cavities + cavity;
                     if axis < S::WIDTH {
-                        *responses[place].col_mut(axis) = gained / time_step;
+                        *self.responses[place].col_mut(axis) = gained / time_step;
                     }
                     if turns {
-                        let free = S::spin_in_space(turning[cavity].free);
+                        let free = S::spin_in_space(self.turning[cavity].free);
                         let turned = (motion.angular_velocity - free) / time_step;
-                        mobilities[place].set(axis, gained / time_step, turned);
+                        self.mobilities[place].set(axis, gained / time_step, turned);
                     }
                 }
             }
         }
     }
+}
+
+/// The mount's own coordinates and rates.
+fn own<C, L: ContactLaw, M: Mount + ?Sized>(state: &State<C, L, M>) -> (&[f64], &[f64]) {
+    let degrees = state.mount.degrees();
+    let coordinates = &state.mount_coordinates;
+    (coordinates.own(degrees), coordinates.own_rates(degrees))
+}
+
+/// Goes on `from` numbers for `time` at the rates `by`.
+fn advance(from: &[f64], by: &[f64], time: f64, to: &mut Vec<f64>) {
+    to.clear();
+    to.extend(from.iter().zip(by).map(|(from, by)| from + by * time));
 }
