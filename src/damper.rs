@@ -132,9 +132,13 @@ where
     }
 
     fn advance<O: Observer>(&mut self, dt: f64, observer: &mut O) -> Result<(), StepError> {
-        // Of every mount alike, which it asks a few times: a step is compiled once for all of them.
-        let engine: &mut Engine<C, L, dyn Mount + '_, D> = &mut self.engine;
-        engine.step(dt, &mut self.clock, &mut self.integrator, observer)?;
+        let (engine, integrator) = (&mut self.engine, &mut self.integrator);
+        // Where little is optimised, a step is compiled once for all mounts and integrators.
+        #[cfg(debug_assertions)]
+        let engine: &mut Engine<C, L, dyn Mount + '_, D> = engine;
+        #[cfg(debug_assertions)]
+        let integrator: &mut dyn Integrator = integrator;
+        engine.step(dt, &mut self.clock, integrator, observer)?;
         observer.step(&StepReport::new(self.clock.time(), dt, &self.engine));
         Ok(())
     }

@@ -69,7 +69,7 @@ pub(crate) struct State<C, L: ContactLaw, M: ?Sized> {
     pub(crate) overlap_limit: f64,
     /// Whether a particle behind a wall is an error.
     pub(crate) contained: bool,
-    /// Last, so that a step can be compiled once for all mounts.
+    /// Last, so that where little is optimised a step can be compiled once for all mounts.
     pub(crate) mount: M,
 }
 

@@ -21,11 +21,11 @@ use system::SteppedSystem;
 
 impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized, D: Detector> Engine<C, L, M, D> {
     /// Moves everything on by `dt` (s).
-    pub(crate) fn step<O: Observer>(
+    pub(crate) fn step<I: Integrator + ?Sized, O: Observer>(
         &mut self,
         dt: f64,
         clock: &mut Clock,
-        integrator: &mut dyn Integrator,
+        integrator: &mut I,
         observer: &mut O,
     ) -> Result<(), StepError> {
         self.state.begin_step(dt);

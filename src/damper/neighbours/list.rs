@@ -158,10 +158,11 @@ impl<L: ContactLaw> NeighbourList<L> {
     /// they touch (m).
     #[inline(always)]
     pub(crate) fn find(&mut self, touches: impl Fn(usize, u32, f64) -> bool) {
-        self.contacts.find(self.list.iter().map(|own| {
-            let touches = touches(own.first as usize, own.second, own.touching);
-            ([own.first, own.second], touches)
-        }));
+        self.contacts.find(
+            &self.list,
+            |own| [own.first, own.second],
+            |own| touches(own.first as usize, own.second, own.touching),
+        );
     }
 
     /// The law's own coefficients of a candidate, if it was asked pair by pair.
