@@ -24,8 +24,8 @@ mod time_step;
 pub use error::{BuildError, StepBound};
 
 /// Overlaps up to this fraction of the smallest radius are taken for contacts of a settled bed. Beds that have
-/// settled under the coarse law keep its slop of 0.01; 33 grains on one another, shaken at 3 g, reach 0.05 to
-/// 0.06 ([`SolverParameters::warm_start`](crate::SolverParameters::warm_start)).
+/// settled under the coarse law keep its [slop](crate::SolverParameters::slop) of 0.01, and tall ones that are
+/// hit hard stay within 0.05.
 const INITIAL_OVERLAP: f64 = 0.05;
 
 /// Overlaps up to this fraction of the smallest radius pass while blows are hard. Beds of very unlike masses
