@@ -139,6 +139,7 @@ impl<S: Space> Containers<S> {
 
     /// The mount's rates at the end of the step under the loads, of second order: with the accelerations at its
     /// middle.
+    #[inline]
     fn set_rates<C, L: ContactLaw, M: Mount + ?Sized>(
         &mut self,
         state: &State<C, L, M>,
@@ -225,6 +226,7 @@ impl<S: Space> Containers<S> {
 }
 
 /// The mount's own coordinates and rates.
+#[inline]
 fn own<C, L: ContactLaw, M: Mount + ?Sized>(state: &State<C, L, M>) -> (&[f64], &[f64]) {
     let degrees = state.mount.degrees();
     let coordinates = &state.mount_coordinates;
@@ -232,6 +234,7 @@ fn own<C, L: ContactLaw, M: Mount + ?Sized>(state: &State<C, L, M>) -> (&[f64], 
 }
 
 /// Goes on `from` numbers for `time` at the rates `by`.
+#[inline]
 fn advance(from: &[f64], by: &[f64], time: f64, to: &mut Vec<f64>) {
     to.clear();
     to.extend(from.iter().zip(by).map(|(from, by)| from + by * time));

@@ -38,11 +38,13 @@ impl MountCoordinates {
     }
 
     /// The mount's own coordinates, of which there are `degrees`.
+    #[inline]
     pub(crate) fn own(&self, degrees: usize) -> &[f64] {
         &self.position[..degrees]
     }
 
     /// Their rates.
+    #[inline]
     pub(crate) fn own_rates(&self, degrees: usize) -> &[f64] {
         &self.velocity[..degrees]
     }
