@@ -87,8 +87,8 @@
 //!
 //! | step | way in it | RMS response against the strict law of the same restitution: worst, mean of 21 points | largest overlap |
 //! |---|---|---|---|
-//! | 0.1 ms | 0.05 radii | 1.5 %, 0.3 % | 0.13 radii |
-//! | 0.2 ms | 0.1 radii | 1.5 %, 0.3 % | 0.25 radii |
+//! | 0.1 ms | 0.05 radii | 1.4 %, 0.3 % | 0.08 radii |
+//! | 0.2 ms | 0.1 radii | 1.9 %, 0.4 % | 0.17 radii |
 //!
 //! The overlaps are those of blows, which last some steps; an error comes at
 //! [0.7 radii](crate::Builder::overlap_limit). To be rerun with

@@ -9,8 +9,8 @@ mod fading;
 use fading::Fading;
 
 /// A step moves a particle at the reference speed by at most this fraction of the smaller radius. In the
-/// paper's damper steps of a thirtieth and of a fifteenth lead to overlaps of 0.13 and 0.25 radii (below), in
-/// proportion: a fifth would lead to some 0.75, where overlaps are an error.
+/// paper's damper steps of a thirtieth, a fifteenth and two fifteenths lead to overlaps of 0.08, 0.17 and 0.33
+/// radii (below), in proportion: a fifth leads to some 0.5, not far from where overlaps are an error.
 const TRAVEL: f64 = 0.2;
 
 /// The restitution coefficient turned into a force over one step (the paper's Sec. 4.3), for any
@@ -32,8 +32,8 @@ const TRAVEL: f64 = 0.2;
 ///   of their way in it: the law is of first order in the step where impacts count, and of second in what
 ///   rests.
 /// - The paper's damper at its resonances (20, 40, 60 particles, 5.5 to 6.75 Hz) responds as under the
-///   strict law of the same restitution ([`Damping::Tsuji`], steps of 5 us) to 1.5 % at worst and 0.3 % on
-///   the mean, at steps of 0.1 ms and of 0.2 ms alike, with overlaps of up to 0.13 and 0.25 radii
+///   strict law of the same restitution ([`Damping::Tsuji`], steps of 10 us): at worst 1.4 % off and 0.3 % on
+///   the mean at steps of 0.1 ms, 1.9 % and 0.4 % at 0.2 ms, with overlaps of up to 0.08 and 0.17 radii
 ///   (`tests/physics/coarse_law.rs`, long form).
 /// - Beds that are shaken at 1.1 to 3 g keep overlaps below 0.05 radii from 20 Hz on, and below 0.1 at
 ///   10 Hz, also where one half is up to 16 times as heavy as the other.
