@@ -27,6 +27,8 @@ const MASS: f64 = 1e-4;
 struct Outcome {
     collisions: usize,
     speed: f64,
+    /// Mean square of the speeds out, m^2/s^2.
+    square: f64,
     /// Time of the last collision in s, or of the end.
     end: f64,
 }
@@ -72,6 +74,7 @@ fn event_by_event(e: f64, gaps: &[f64], masses: &[f64], mut speed: Vec<f64>) -> 
     Outcome {
         collisions,
         speed: speed.iter().sum::<f64>() / gaps.len() as f64,
+        square: speed.iter().map(|own| own * own).sum::<f64>() / gaps.len() as f64,
         end,
     }
 }
@@ -106,10 +109,13 @@ fn run<L: ContactLaw>(
         damper.step_watched(&mut log).unwrap();
     }
     let collisions = log.records().len();
-    let speed = damper.particles().map(|body| body.velocity.x).sum::<f64>() / damper.len() as f64;
+    let count = damper.len() as f64;
+    let speed = damper.particles().map(|body| body.velocity.x).sum::<f64>() / count;
+    let squares = damper.particles().map(|body| body.velocity.x.powi(2));
     Outcome {
         collisions,
         speed,
+        square: squares.sum::<f64>() / count,
         end: damper.time(),
     }
 }
@@ -309,6 +315,27 @@ fn left_over(e: f64) -> f64 {
     1.0 / (1.0 / power + 0.2)
 }
 
+/// Five beads of 0.75: what is left of their energy, where they come one by one and where they touch. Touching ones
+/// hand a pulse through under the strict law; under the coarse law their blows are those of one step, and what is
+/// left depends on their numbers.
+fn touching_cases(cases: &mut Vec<Case>) {
+    let apart = fallen(0.75, &GAPS[..5]);
+    let printed = Tolerance::Absolute(1e-3);
+    let left = |case: &str| format!("5 beads, e 0.75, {case}: part of the energy left");
+    let coarse = by_coarse_law(0.75, &GAPS[..5], apart.end + 0.01).square;
+    for (name, got) in [("event by event", apart.square), ("coarse law", coarse)] {
+        cases.push(Case::new(left(name), COLUMN, 0.040, got, printed));
+    }
+    let touching = [0.01, 0.0, 0.0, 0.0, 0.0];
+    let strict = by_strict_law(0.75, &touching, 0.02, 1e-5).square;
+    let name = left("touching, strict law");
+    let printed = Tolerance::Absolute(5e-3);
+    cases.push(Case::new(name, COLUMN, 0.71, strict, printed));
+    let coarse = by_coarse_law(0.75, &touching, 0.02).square;
+    let name = left("touching, coarse law");
+    cases.push(Case::bounded(name, COLUMN, 0.2, coarse));
+}
+
 /// Wall, a ball at rest, and one 100^k as heavy coming in, elastic: under a force to k = 1, and 2 in the long form.
 fn digits_cases(cases: &mut Vec<Case>, form: Form) {
     let (largest, by_force) = if form == Form::Short { (2, 1) } else { (3, 2) };
@@ -352,6 +379,7 @@ pub(crate) fn cases(form: Form) -> Vec<Case> {
     let mut cases = Vec::new();
     column_cases(&mut cases, form);
     collapse_cases(&mut cases, form);
+    touching_cases(&mut cases);
     digits_cases(&mut cases, form);
     cases
 }

@@ -1,7 +1,7 @@
 //! One mass in the box of a driven oscillator: stable motion with two impacts per cycle (Masri &
 //! Caughey), and the free decay of the empty box.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{PI, SQRT_2, TAU};
 
 use particle_damper::excitation::Harmonic;
 use particle_damper::glam::{DVec3, dvec3};
@@ -15,6 +15,8 @@ use super::case::{Case, Tolerance};
 use super::setup::{acrylic, material};
 
 const MASRI: &str = "Masri & Caughey 1966, doi 10.1115/1.3625084";
+const ABSORBER: &str =
+    "Masri & Caughey 1966; units of Weidemann et al. 2025, doi 10.1007/s11071-025-10928-4";
 const DECAY: &str = "2 pi z/sqrt(1 - z^2)";
 
 /// The paper's primary system and its force: M, K, C, F.
@@ -31,10 +33,24 @@ pub(crate) struct TwoImpacts {
     pub(crate) rms: f64,
 }
 
-/// Solves Masri & Caughey's quadratic for a free mass `m` of travel `d`, restitution `e`, at `f`:
-/// the root with the larger speed.
+/// Solves Masri & Caughey's quadratic for a free mass `m` of travel `d`, restitution `e`, at `f` in the paper's
+/// system: the root with the larger speed.
 pub(crate) fn two_impacts(m: f64, e: f64, d: f64, f: f64) -> Option<TwoImpacts> {
-    let [mass, k, c, force] = PAPER;
+    orbit(PAPER, m, e, d, f).map(|orbit| orbit.motion)
+}
+
+/// Motion with two impacts per cycle, and how it is right after an impact on the far wall along the axis.
+#[derive(Debug, Clone, Copy)]
+struct Orbit {
+    motion: TwoImpacts,
+    /// Velocity of the box in m/s.
+    velocity: f64,
+    /// Phase of the force, a sine, in rad.
+    phase: f64,
+}
+
+/// The same in a system of M, K, C and F.
+fn orbit([mass, k, c, force]: [f64; 4], m: f64, e: f64, d: f64, f: f64) -> Option<Orbit> {
     let (omega, w, mu) = (TAU * f, (k / mass).sqrt(), m / mass);
     let z = c / (2.0 * (k * mass).sqrt());
     let wd = w * (1.0 - z * z).sqrt();
@@ -68,10 +84,14 @@ pub(crate) fn two_impacts(m: f64, e: f64, d: f64, f: f64) -> Option<TwoImpacts> 
     let squares =
         (0..samples).map(|n| at((f64::from(n) + 0.5) * theta / f64::from(samples)).powi(2));
     let rms = (squares.sum::<f64>() / f64::from(samples)).sqrt();
-    (speed.is_finite() && speed > 0.0).then_some(TwoImpacts {
-        speed,
-        displacement: 0.5 * (speed * PI / omega - d),
-        rms,
+    (speed.is_finite() && speed > 0.0).then_some(Orbit {
+        motion: TwoImpacts {
+            speed,
+            displacement: 0.5 * (speed * PI / omega - d),
+            rms,
+        },
+        velocity: speed * (e * (1.0 + 2.0 * mu) - 1.0) / (1.0 + e),
+        phase: p.atan2(q / omega) + (c * omega).atan2(k - mass * omega * omega),
     })
 }
 
@@ -197,8 +217,57 @@ pub(crate) fn cases(form: Form) -> Vec<Case> {
             Tolerance::Relative(1e-6),
         ));
     }
+    absorber_cases(&mut cases);
     cases.push(decay());
     cases
+}
+
+/// A stable orbit of an impact absorber near resonance, beside others that are not: the mass ratio is 0.02, the
+/// damping ratio 1e-3, e 0.8, half the clearance 0.3 of the amplitude at resonance with the ball fixed, which is 1.
+/// Started on the orbit, the crate stays there.
+fn absorber_cases(cases: &mut Vec<Case>) {
+    let (system, m, e, d) = ([0.98, 1.0, 2e-3, 2e-3], 0.02, 0.8, 0.6);
+    let f = 0.977_307 / TAU;
+    let Orbit {
+        motion,
+        velocity,
+        phase,
+    } = orbit(system, m, e, d, f).unwrap();
+    let amplitude = SQRT_2 * motion.rms;
+    let name = "absorber, printed row: amplitude".to_owned();
+    let close = Tolerance::Absolute(1e-6);
+    cases.push(Case::new(name, ABSORBER, 0.098_383, amplitude, close));
+
+    let [mass, k, c, force] = system;
+    let (radius, steps, periods) = (0.02, 10_000, 200);
+    let force = Harmonic::new(force, f).unwrap().with_phase(phase).unwrap();
+    let mount = SingleDof::new(mass, c, k).unwrap().along(DVec3::X).unwrap();
+    let mount = mount.released_from(motion.displacement, velocity).unwrap();
+    let ball = Particle::new(radius, m).unwrap();
+    let mut damper = Damper::builder(
+        Slot::new(d + 2.0 * radius, 4.0 * radius).unwrap(),
+        RestitutionImpulse::new(acrylic(e, 0.0)),
+    )
+    .detector(AllPairs)
+    .mount(mount.excited_by(force))
+    .gravity(DVec3::ZERO)
+    .particles([ball
+        .at(dvec3(d + radius, 2.0 * radius, 0.0))
+        .moving(DVec3::NEG_X * motion.speed)])
+    .time_step(1.0 / (f * f64::from(steps)))
+    .build()
+    .unwrap();
+    let mut squares = 0.0;
+    for step in 0..periods * steps {
+        damper.step().unwrap();
+        if step >= (periods - 20) * steps {
+            squares += damper.coordinates()[0].powi(2);
+        }
+    }
+    let got = SQRT_2 * (squares / f64::from(20 * steps)).sqrt();
+    let name = "absorber, RestitutionImpulse, 200 periods: amplitude".to_owned();
+    let close = Tolerance::Relative(2e-3);
+    cases.push(Case::new(name, ABSORBER, amplitude, got, close));
 }
 
 /// Logarithmic decrement of the empty paper box, from the first and the sixth peak.
