@@ -74,6 +74,25 @@ impl<F> Ledger<F> {
 /// Who hears what a task tells, and may cancel it.
 pub(crate) type Hear<'a, P> = dyn FnMut(&Told<'_, P>) -> ControlFlow<()> + 'a;
 
+/// Measures a point that takes so many periods at the `most`, each so much `work`, and tells of every period and of
+/// its end; `cancelled` is the error of one that is told to stop there.
+pub(crate) fn by_period<P, E>(
+    (most, work): (u64, f64),
+    cancelled: E,
+    hear: &mut Hear<'_, P>,
+    measure: impl FnOnce(&mut dyn FnMut() -> ControlFlow<()>) -> Result<P, E>,
+) -> Result<P, E> {
+    let mut left = most;
+    let point = measure(&mut || {
+        left -= 1;
+        hear(&Told::Period(work))
+    })?;
+    if hear(&Told::Point(&point, work * left as f64)).is_break() {
+        return Err(cancelled);
+    }
+    Ok(point)
+}
+
 /// Does all tasks, and gives what comes of them in their order.
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn spread<T, P, R, E, F>(

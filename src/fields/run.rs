@@ -5,7 +5,7 @@ use crate::cavity::Cavity;
 use crate::detector::Detector;
 use crate::integrator::Integrator;
 use crate::law::ContactLaw;
-use crate::tasks::{Ledger, Standing, Told, spread};
+use crate::tasks::{Ledger, Standing, by_period, spread};
 
 /// How far fields have come.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,24 +82,13 @@ where
         let work = |point: &Point| self.work(point);
         let all_work = points.iter().map(work).sum::<f64>() * most as f64;
         let ledger = Ledger::new(points.len(), all_work, telling(progress));
-        spread(
-            &points,
-            work,
-            &FieldError::Cancelled,
-            ledger,
-            |point, hear| {
-                let mut left = most;
-                let measurement = self.measure(*point, |_| {
-                    left -= 1;
-                    hear(&Told::Period(work(point)))
-                })?;
-                let unneeded = work(point) * left as f64;
-                if hear(&Told::Point(&measurement, unneeded)).is_break() {
-                    return Err(FieldError::Cancelled);
-                }
-                Ok(measurement)
-            },
-        )
+        let cancelled = FieldError::Cancelled;
+        spread(&points, work, &cancelled, ledger, |point, hear| {
+            let cost = (most, work(point));
+            by_period(cost, cancelled.clone(), hear, |each_period| {
+                self.measure(*point, |_| each_period())
+            })
+        })
     }
 
     /// Likely work for a period of a point, in any unit.

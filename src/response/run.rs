@@ -5,7 +5,7 @@ use crate::cavity::Cavity;
 use crate::detector::Detector;
 use crate::integrator::Integrator;
 use crate::law::ContactLaw;
-use crate::tasks::{Ledger, Standing, Told, spread};
+use crate::tasks::{Ledger, Standing, by_period, spread};
 
 /// How far a curve has come.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,23 +73,12 @@ where
         let cost = |point: &Point| point.work() * self.periods.most() as f64;
         let all_work = points.iter().map(cost).sum();
         let ledger = Ledger::new(points.len(), all_work, telling(progress));
-        spread(
-            &points,
-            cost,
-            &ResponseError::Cancelled,
-            ledger,
-            |point, hear| {
-                let mut left = self.periods.most();
-                let response = self.measure(*point, |_| {
-                    left -= 1;
-                    hear(&Told::Period(point.work()))
-                })?;
-                let unneeded = point.work() * left as f64;
-                if hear(&Told::Point(&response, unneeded)).is_break() {
-                    return Err(ResponseError::Cancelled);
-                }
-                Ok(response)
-            },
-        )
+        let cancelled = ResponseError::Cancelled;
+        spread(&points, cost, &cancelled, ledger, |point, hear| {
+            let cost = (self.periods.most(), point.work());
+            by_period(cost, cancelled.clone(), hear, |each_period| {
+                self.measure(*point, |_| each_period())
+            })
+        })
     }
 }

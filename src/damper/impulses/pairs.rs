@@ -30,7 +30,7 @@ pub(super) struct Lanes<S: Space> {
     inverse: Column,
     /// Sum of the radii, m.
     touching: Column,
-    /// Speed along the normal, m/s, not negative.
+    /// Speed of approach along the normal at the start of the step, m/s, negative when they part.
     approach: Column,
     /// How much nearer they are than they have to be, m.
     within: Column,
@@ -85,12 +85,12 @@ impl<S: Space> Lanes<S> {
         for n in 0..count {
             let distance = self.distance[n].sqrt();
             let inverse = 1.0 / (distance + f64::MIN_POSITIVE);
-            let approach = at_least(self.closing[n] * inverse, 0.0);
+            let approach = self.closing[n] * inverse;
             let gap = distance - self.touching[n];
             self.distance[n] = distance;
             self.inverse[n] = inverse;
             self.approach[n] = approach;
-            self.within[n] = step.prediction_distance(approach) - gap;
+            self.within[n] = step.prediction_distance(at_least(approach, 0.0)) - gap;
         }
         let mut active = [0; LANES];
         let mut found = 0;
@@ -99,7 +99,7 @@ impl<S: Space> Lanes<S> {
             active[found] = n as u8;
             let active = self.within[n] > 0.0 || {
                 let gap = self.distance[n] - self.touching[n];
-                closes_under_load(n, gap, self.closing[n] * self.inverse[n])
+                closes_under_load(n, gap, self.approach[n])
             };
             found += usize::from(active);
         }
@@ -150,7 +150,7 @@ impl<S: Space> ImpulseSolver<S> {
                 let inverse_mass = bodies[i].inverse_mass + bodies[j].inverse_mass;
                 let kinematics = ContactKinematics {
                     overlap: lanes.touching[n] - lanes.distance[n],
-                    approach: lanes.approach[n],
+                    approach: at_least(lanes.approach[n], 0.0),
                     smaller_radius: at_most(view.radius[i], view.radius[j]),
                     inverse_masses: [inverse_mass, inverse_mass * (1.0 + TURNING * lever * lever)],
                     speed_gain: common_gain.unwrap_or_else(|| {
@@ -167,8 +167,8 @@ impl<S: Space> ImpulseSolver<S> {
                     &other
                 };
                 let (constraint, rests) = step.constrain(view.law, own, place, &kinematics, held);
-                let closing = lanes.closing[n] * lanes.inverse[n];
-                deepest = at_least(step.at_start(kinematics.overlap, closing), deepest);
+                let overlap = step.at_start(kinematics.overlap, lanes.approach[n]);
+                deepest = at_least(overlap, deepest);
                 constraints.push(constraint);
                 infos.push(ConstraintInfo {
                     candidate,
