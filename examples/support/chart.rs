@@ -6,7 +6,7 @@ use std::path::Path;
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
 
-use picture::{Failure, Swatch, pixels, short, ticks};
+use picture::{Failure, Swatch, pixels, ticks};
 
 #[path = "picture.rs"]
 pub(crate) mod picture;
@@ -119,17 +119,9 @@ impl Chart<'_> {
         X: Ranged<ValueType = f64> + ValueFormatter<f64>,
         Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
     {
-        chart
-            .configure_mesh()
-            .x_desc(self.axes[0])
-            .y_desc(self.axes[1])
-            .x_label_formatter(&|value| short(*value))
-            .y_label_formatter(&|value| short(*value))
-            .axis_desc_style(("sans-serif", pixels(18)))
-            .label_style(("sans-serif", pixels(15)))
-            .axis_style(BLACK.stroke_width(pixels(1)))
-            .set_all_tick_mark_size(pixels(5))
-            .bold_line_style(BLACK.mix(0.18).stroke_width(pixels(1)))
+        let mut mesh = chart.configure_mesh();
+        picture::name_axes(&mut mesh, self.axes);
+        mesh.bold_line_style(BLACK.mix(0.18).stroke_width(pixels(1)))
             .light_line_style(BLACK.mix(0.05).stroke_width(pixels(1)))
             .draw()?;
         let mut entries = Vec::new();

@@ -82,17 +82,9 @@ impl HeatMap<'_> {
     where
         X: Ranged<ValueType = f64> + ValueFormatter<f64>,
     {
-        map.configure_mesh()
-            .disable_mesh()
-            .x_desc(self.axes[0])
-            .y_desc(self.axes[1])
-            .x_label_formatter(&|value| short(*value))
-            .y_label_formatter(&|value| short(*value))
-            .axis_desc_style(("sans-serif", pixels(18)))
-            .label_style(("sans-serif", pixels(15)))
-            .axis_style(BLACK.stroke_width(pixels(1)))
-            .set_all_tick_mark_size(pixels(5))
-            .draw()?;
+        let mut mesh = map.configure_mesh();
+        picture::name_axes(&mut mesh, [self.axes[0], self.axes[1]]);
+        mesh.disable_mesh().draw()?;
         let values = self.values.iter().enumerate();
         let cells = values.filter(|cell| cell.1.is_finite());
         map.draw_series(cells.map(|(n, value)| {

@@ -5,7 +5,9 @@ use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
+use plotters::chart::MeshStyle;
 use plotters::coord::Shift;
+use plotters::coord::ranged1d::ValueFormatter;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -28,6 +30,22 @@ const HEAD: u32 = 46;
 
 /// Where pictures are drawn.
 pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// Has the axes of a chart named, and their numbers written, as in all pictures.
+pub(crate) fn name_axes<X, Y>(mesh: &mut MeshStyle<'_, '_, X, Y, SVGBackend<'_>>, names: [&str; 2])
+where
+    X: Ranged<ValueType = f64> + ValueFormatter<f64>,
+    Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
+{
+    mesh.x_desc(names[0])
+        .y_desc(names[1])
+        .x_label_formatter(&|value| short(*value))
+        .y_label_formatter(&|value| short(*value))
+        .axis_desc_style(("sans-serif", pixels(18)))
+        .label_style(("sans-serif", pixels(15)))
+        .axis_style(BLACK.stroke_width(pixels(1)))
+        .set_all_tick_mark_size(pixels(5));
+}
 
 /// Has a picture drawn on white beneath its title, and writes it.
 pub(crate) fn save(
