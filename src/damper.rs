@@ -10,11 +10,12 @@ use crate::detector::{Detector, LinkedCells, Skin};
 use crate::integrator::{Integrator, VelocityVerlet};
 use crate::law::ContactLaw;
 use crate::mount::{Driven, Load, Motion, Mount};
-use crate::observer::{Observable, Observer, StepReport};
+use crate::observer::{Observable, Observer};
 use crate::particle::Particle;
 use crate::step_error::StepError;
-use engine::Engine;
-use state::{Clock, Setup};
+use engine::{Engine, Parts};
+use observable::Observed;
+use state::{Clock, Compartment, Setup};
 
 mod builder;
 mod drive;
@@ -67,7 +68,10 @@ pub struct Reaction {
 /// The crate page shows the loop.
 #[derive(Clone)]
 pub struct Damper<C, L: ContactLaw, M = Driven, D = Skin<LinkedCells>, I = VelocityVerlet> {
-    engine: Engine<C, L, M, D>,
+    engine: Engine<C, L>,
+    mount: M,
+    /// One for each cavity.
+    detectors: Vec<D>,
     integrator: I,
     clock: Clock,
     time_step: f64,
@@ -80,7 +84,7 @@ impl<C, L: ContactLaw, M, D, I> fmt::Debug for Damper<C, L, M, D, I> {
             .field("time", &self.clock.time())
             .field("time_step", &self.time_step)
             .field("particles", &self.engine.state.particles.len())
-            .field("cavities", &self.engine.state.model.compartments.len())
+            .field("cavities", &self.engine.state.compartments.len())
             .finish_non_exhaustive()
     }
 }
@@ -106,7 +110,7 @@ where
     ///
     /// # Errors
     /// As [`step`](Self::step).
-    pub fn step_watched<O: Observer>(&mut self, observer: &mut O) -> Result<(), StepError> {
+    pub fn step_watched(&mut self, observer: &mut dyn Observer) -> Result<(), StepError> {
         self.reset_impulses();
         let done = self.advance(self.time_step, observer);
         // Particles that are found out of place may be so because walls are not where they say.
@@ -125,22 +129,26 @@ where
     /// Starts the sums of impulses on the containers afresh.
     fn reset_impulses(&mut self) {
         let state = &mut self.engine.state;
-        let compartments = state.model.compartments.iter();
+        let compartments = state.compartments.iter();
         let origins = compartments.map(|compartment| compartment.motion.position);
-        let degrees = state.mount.degrees();
-        state.mount_coordinates.reset_impulses(degrees, origins);
+        state
+            .mount_coordinates
+            .reset_impulses(state.degrees, origins);
     }
 
-    fn advance<O: Observer>(&mut self, dt: f64, observer: &mut O) -> Result<(), StepError> {
-        let (engine, integrator) = (&mut self.engine, &mut self.integrator);
-        // Where little is optimised, a step is compiled once for all mounts and integrators.
-        #[cfg(debug_assertions)]
-        let engine: &mut Engine<C, L, dyn Mount + '_, D> = engine;
-        #[cfg(debug_assertions)]
-        let integrator: &mut dyn Integrator = integrator;
-        engine.step(dt, &mut self.clock, integrator, observer)?;
-        observer.step(&StepReport::new(self.clock.time(), dt, &self.engine));
-        Ok(())
+    fn advance(&mut self, dt: f64, observer: &mut dyn Observer) -> Result<(), StepError> {
+        let mut parts = Parts {
+            mount: &self.mount,
+            detectors: &mut self.detectors,
+            observer,
+        };
+        let (clock, integrator) = (&mut self.clock, &mut self.integrator);
+        self.engine.step(dt, clock, integrator, &mut parts)
+    }
+
+    /// What there is to be seen.
+    fn observed(&self) -> Observed<'_, C, L> {
+        Observed::new(&self.engine, &self.mount)
     }
 
     /// Simulated time in s.
@@ -171,14 +179,14 @@ where
     /// frame.
     #[must_use]
     pub fn particle(&self, number: usize) -> Option<Particle> {
-        self.engine.particle(number)
+        self.observed().particle(number)
     }
 
     /// The particles in the order of their numbers.
     pub fn particles(&self) -> impl ExactSizeIterator<Item = Particle> {
         self.engine.state.particles.index_of.iter().map(|index| {
             let index = *index as usize;
-            let cavity = self.engine.state.model.cavity_of(index) as u32;
+            let cavity = self.engine.state.cavity_of(index) as u32;
             self.engine.state.particles.particle(index, cavity)
         })
     }
@@ -186,37 +194,37 @@ where
     /// The mount.
     #[must_use]
     pub const fn mount(&self) -> &M {
-        &self.engine.state.mount
+        &self.mount
     }
 
     /// The contact law.
     #[must_use]
     pub const fn law(&self) -> &L {
-        &self.engine.state.model.law
+        &self.engine.model.law
     }
 
     /// The detector of a cavity.
     #[must_use]
     pub fn detector(&self, cavity: usize) -> Option<&D> {
-        self.engine.neighbours.detectors.get(cavity)
+        self.detectors.get(cavity)
     }
 
     /// The mount's generalised coordinates.
     #[must_use]
     pub fn coordinates(&self) -> &[f64] {
-        self.engine.coordinates()
+        self.engine.state.mount_state()[0]
     }
 
     /// The rates of the mount's generalised coordinates.
     #[must_use]
     pub fn rates(&self) -> &[f64] {
-        self.engine.rates()
+        self.engine.state.mount_state()[1]
     }
 
     /// How the container of a cavity moves.
     #[must_use]
     pub fn container(&self, cavity: usize) -> Option<Motion> {
-        self.engine.container(cavity)
+        self.observed().container(cavity)
     }
 
     /// What the particles of a cavity did to its container over the last step.
@@ -224,9 +232,10 @@ where
     pub fn reaction(&self, cavity: usize) -> Option<Reaction> {
         let state = &self.engine.state;
         let Load { force, torque } = *state.loads.get(cavity)?;
-        let origin = state.model.compartments[cavity].motion.position;
-        let degrees = state.mount.degrees();
-        let sums = state.mount_coordinates.impulses(degrees, cavity, origin);
+        let origin = state.compartments[cavity].motion.position;
+        let sums = state
+            .mount_coordinates
+            .impulses(state.degrees, cavity, origin);
         let [impulse, angular_impulse] = sums?;
         Some(Reaction {
             force,
@@ -240,40 +249,36 @@ where
     /// over the step.
     #[must_use]
     pub fn wall_load(&self, cavity: usize, wall: u32) -> Option<WallLoad> {
-        self.engine.wall_load(cavity, wall)
+        self.observed().wall_load(cavity, wall)
     }
 
     /// How many contacts there were when they were evaluated last, walls included.
     #[must_use]
     pub fn contacts(&self) -> usize {
-        Observable::contacts(&self.engine)
+        self.engine.neighbours.contacts()
     }
 
     /// The largest overlap in m: under a force law when contacts were evaluated last, under an impulse law at
     /// the start of the last step.
     #[must_use]
     pub fn largest_overlap(&self) -> f64 {
-        self.engine.largest_overlap()
+        self.engine.neighbours.largest_overlap()
     }
 
     /// How many particles have their centre outside their cavity.
     #[must_use]
     pub fn outside(&self) -> usize {
-        (0..self.engine.state.model.compartments.len())
-            .filter_map(|cavity| {
-                Some((
-                    &self.engine.state.model.compartments[cavity],
-                    self.container(cavity)?,
-                ))
-            })
-            .map(|(compartment, container)| {
-                let position = |index| self.engine.state.particles.position.get(index);
-                let outside = |index: &usize| {
-                    clearance(&compartment.cavity, container.to_local(position(*index))) < 0.0
-                };
-                compartment.indices.clone().filter(outside).count()
-            })
-            .sum()
+        let state = &self.engine.state;
+        let cavities = state.compartments.iter().zip(&self.engine.model.cavities);
+        let outside = |(number, (compartment, cavity)): (usize, (&Compartment, &C))| {
+            let container = self.container(number).unwrap_or_default();
+            let local = |index| container.to_local(state.particles.position.get(index));
+            let indices = compartment.indices.clone();
+            indices
+                .filter(|index| clearance(cavity, local(*index)) < 0.0)
+                .count()
+        };
+        cavities.enumerate().map(outside).sum()
     }
 
     /// How often candidates have been listed anew.

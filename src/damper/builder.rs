@@ -43,6 +43,12 @@ pub struct Builder<C, L, M = Driven, D = Skin<LinkedCells>, I = VelocityVerlet> 
     detectors: Vec<D>,
     copy: Option<fn(&D) -> D>,
     integrator: I,
+    settings: Settings,
+}
+
+/// What a builder is told besides the parts.
+#[derive(Debug, Clone)]
+struct Settings {
     gravity: DVec3,
     time_step: Option<f64>,
     start_time: f64,
@@ -51,6 +57,21 @@ pub struct Builder<C, L, M = Driven, D = Skin<LinkedCells>, I = VelocityVerlet> 
     initial_overlap: f64,
     overlap_limit: f64,
     contained: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            gravity: DVec3::NEG_Y * 9.81,
+            time_step: None,
+            start_time: 0.0,
+            wall_material: Materials::FIRST,
+            particles: Vec::new(),
+            initial_overlap: INITIAL_OVERLAP,
+            overlap_limit: OVERLAP_LIMIT,
+            contained: true,
+        }
+    }
 }
 
 impl<C, L> Builder<C, L> {
@@ -62,14 +83,7 @@ impl<C, L> Builder<C, L> {
             detectors: vec![Skin::default()],
             copy: Some(Clone::clone),
             integrator: VelocityVerlet,
-            gravity: DVec3::NEG_Y * 9.81,
-            time_step: None,
-            start_time: 0.0,
-            wall_material: Materials::FIRST,
-            particles: Vec::new(),
-            initial_overlap: INITIAL_OVERLAP,
-            overlap_limit: OVERLAP_LIMIT,
-            contained: true,
+            settings: Settings::default(),
         }
     }
 }
@@ -84,14 +98,7 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
             detectors: self.detectors,
             copy: self.copy,
             integrator: self.integrator,
-            gravity: self.gravity,
-            time_step: self.time_step,
-            start_time: self.start_time,
-            wall_material: self.wall_material,
-            particles: self.particles,
-            initial_overlap: self.initial_overlap,
-            overlap_limit: self.overlap_limit,
-            contained: self.contained,
+            settings: self.settings,
         }
     }
 
@@ -118,14 +125,7 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
             detectors: self.detectors,
             copy: self.copy,
             integrator,
-            gravity: self.gravity,
-            time_step: self.time_step,
-            start_time: self.start_time,
-            wall_material: self.wall_material,
-            particles: self.particles,
-            initial_overlap: self.initial_overlap,
-            overlap_limit: self.overlap_limit,
-            contained: self.contained,
+            settings: self.settings,
         }
     }
 
@@ -141,14 +141,7 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
             detectors,
             copy,
             integrator: self.integrator,
-            gravity: self.gravity,
-            time_step: self.time_step,
-            start_time: self.start_time,
-            wall_material: self.wall_material,
-            particles: self.particles,
-            initial_overlap: self.initial_overlap,
-            overlap_limit: self.overlap_limit,
-            contained: self.contained,
+            settings: self.settings,
         }
     }
 
@@ -160,7 +153,7 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
 
     /// Acceleration of gravity in m/s^2; 9.81 against y unless set.
     pub const fn gravity(mut self, gravity: DVec3) -> Self {
-        self.gravity = gravity;
+        self.settings.gravity = gravity;
         self
     }
 
@@ -170,25 +163,25 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
     /// within 1 % ([`guide::trust`](crate::guide::trust#steps-to-a-contact)); of contacts that may pull, on
     /// the mean.
     pub const fn time_step(mut self, time_step: f64) -> Self {
-        self.time_step = Some(time_step);
+        self.settings.time_step = Some(time_step);
         self
     }
 
     /// Simulated time at the start in s; zero unless set.
     pub const fn start_time(mut self, time: f64) -> Self {
-        self.start_time = time;
+        self.settings.start_time = time;
         self
     }
 
     /// Material of the walls; the first of the law's table unless set.
     pub const fn walls_of(mut self, material: MaterialId) -> Self {
-        self.wall_material = material;
+        self.settings.wall_material = material;
         self
     }
 
     /// Adds particles, with positions in their container's frame.
     pub fn particles(mut self, particles: impl IntoIterator<Item = Particle>) -> Self {
-        self.particles.extend(particles);
+        self.settings.particles.extend(particles);
         self
     }
 
@@ -199,21 +192,21 @@ impl<C, L, M, D, I> Builder<C, L, M, D, I> {
     /// twice that. (A [`Filling`](crate::Filling) squeezes by a millionth of a radius at most, to let an exact
     /// fit stand.)
     pub const fn initial_overlap(mut self, fraction: f64) -> Self {
-        self.initial_overlap = fraction;
+        self.settings.initial_overlap = fraction;
         self
     }
 
     /// Overlap at which a step reports an error, as a fraction of the smallest radius; 0.7 unless set.
     /// Results are worth little well before: see [`guide::trust`](crate::guide::trust).
     pub const fn overlap_limit(mut self, fraction: f64) -> Self {
-        self.overlap_limit = fraction;
+        self.settings.overlap_limit = fraction;
         self
     }
 
     /// Whether a particle whose centre passes a wall is an error (the default), or merely
     /// [counted](crate::Damper::outside).
     pub const fn contained(mut self, contained: bool) -> Self {
-        self.contained = contained;
+        self.settings.contained = contained;
         self
     }
 }

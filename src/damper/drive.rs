@@ -41,15 +41,15 @@ where
     ///
     /// # Errors
     /// As [`drive`](Self::drive).
-    pub fn drive_watched<O: Observer>(
+    pub fn drive_watched(
         &mut self,
         end: Motion,
         interval: f64,
-        observer: &mut O,
+        observer: &mut dyn Observer,
     ) -> Result<Reaction, StepError> {
         Bound::Positive.check("interval (s)", interval)?;
         Bound::AtMost(MOST_STEPS * self.time_step).check("interval (s)", interval)?;
-        let planar = self.engine.state.model.planar();
+        let planar = self.engine.state.planar;
         let end = checked(end, 0, planar)?;
         let cut = self.clock.cut(interval, self.time_step);
         let duration = cut.steps as f64 * cut.step;
@@ -58,8 +58,7 @@ where
         for number in 1..=cut.steps {
             let next = course.at_part(number as f64 / cut.steps as f64);
             let from = self.container(0).unwrap_or_default();
-            let mount = &mut self.engine.state.mount;
-            mount.head_for(self.clock.time(), cut.step, from, next);
+            self.mount.head_for(self.clock.time(), cut.step, from, next);
             self.advance(cut.step, observer)?;
         }
         Ok(self.reaction(0).unwrap_or_default())
@@ -91,11 +90,11 @@ where
     ///
     /// # Errors
     /// As [`drive_to`](Self::drive_to).
-    pub fn drive_to_watched<O: Observer>(
+    pub fn drive_to_watched(
         &mut self,
         end: Motion,
         time: f64,
-        observer: &mut O,
+        observer: &mut dyn Observer,
     ) -> Result<Reaction, StepError> {
         let now = self.clock.host_time();
         Bound::Above(now).check("time (s)", time)?;

@@ -101,7 +101,7 @@ where
     }
 
     fn snapshot(&mut self) -> AnySnapshot {
-        AnySnapshot::new(Self::snapshot(self), &self.engine.state.model.law)
+        AnySnapshot::new(Self::snapshot(self), &self.engine.model.law)
     }
 
     fn restore(&mut self, snapshot: &AnySnapshot) -> Result<(), RestoreError> {
@@ -140,7 +140,7 @@ where
 
     fn snapshot(&mut self) -> AnySnapshot {
         let snapshot = Self::snapshot(self);
-        AnySnapshot::new(snapshot, &self.damper().engine.state.model.law)
+        AnySnapshot::new(snapshot, &self.damper().engine.model.law)
     }
 
     fn restore(&mut self, snapshot: &AnySnapshot) -> Result<(), RestoreError> {

@@ -23,7 +23,7 @@ where
     /// Energy of the mount, and the powers that change it besides the particles' forces.
     #[must_use]
     pub fn mount_energy(&self) -> MountEnergy {
-        Observable::mount_energy(&self.engine)
+        self.observed().mount_energy()
     }
 
     /// Energies of mount, particles and contacts. Those of contacts are what the law says that they
@@ -65,22 +65,16 @@ where
 }
 
 /// What all contacts hold.
-struct StoredInContacts<'a, E>(&'a E);
+struct StoredInContacts<'a, C, L: ContactLaw>(&'a Engine<C, L>);
 
-impl<C, L, M, D> LawVisitor<L> for StoredInContacts<'_, Engine<C, L, M, D>>
-where
-    C: Cavity,
-    L: ContactLaw,
-    M: Mount,
-    D: Detector,
-{
+impl<C: Cavity, L: ContactLaw> LawVisitor<L> for StoredInContacts<'_, C, L> {
     type Output = Stored;
 
     fn forces(self) -> Stored
     where
         L: ForceLaw,
     {
-        let view = self.0.state.view(0.0);
+        let view = self.0.state.view(&self.0.model, 0.0);
         let mut sum = Stored::default();
         for block in &self.0.neighbours.blocks {
             for list in [&block.pairs, &block.halo] {

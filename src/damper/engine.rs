@@ -1,23 +1,33 @@
-//! The engine: everything of a damper but its integrator and its clock.
+//! The engine: everything of a damper but its clock and the parts that a step asks.
 
 use super::forces::Forces;
 use super::impulses::ContactSolver;
-use super::neighbours::Neighbours;
-use super::state::State;
+use super::neighbours::{Detectors, Neighbours};
+use super::state::{Model, State};
 use crate::law::ContactLaw;
+use crate::mount::Mount;
+use crate::observer::Observer;
 
-/// The state, and the stages that change it.
+/// The model and the state, and the stages that change it. Compiled for each kind of cavity and contact law,
+/// which innermost loops ask; once for all mounts, detectors, integrators and observers.
 #[derive(Clone)]
-pub(crate) struct Engine<C, L: ContactLaw, M: ?Sized, D> {
-    pub(crate) neighbours: Neighbours<L, D>,
+pub(crate) struct Engine<C, L: ContactLaw> {
+    pub(crate) model: Model<C, L>,
+    pub(crate) state: State,
+    pub(crate) neighbours: Neighbours<L>,
     pub(crate) forces: Forces<L>,
     /// None under a force law.
     pub(crate) impulses: Option<ContactSolver>,
-    /// Last, because its mount is.
-    pub(crate) state: State<C, L, M>,
 }
 
-impl<C, L: ContactLaw, M, D> Engine<C, L, M, D> {
+/// The parts that a step asks, some times each.
+pub(crate) struct Parts<'a> {
+    pub(crate) mount: &'a dyn Mount,
+    pub(crate) detectors: &'a mut dyn Detectors,
+    pub(crate) observer: &'a mut dyn Observer,
+}
+
+impl<C, L: ContactLaw> Engine<C, L> {
     /// Memory in bytes that is reserved.
     pub(crate) fn reserved_bytes(&self) -> usize {
         let impulses = self.impulses.as_ref();

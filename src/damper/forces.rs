@@ -4,11 +4,10 @@
 //! contacts remember. Called at every stage of an integrator.
 
 use super::neighbours::Block;
-use super::state::{State, StateView, StepTime};
+use super::state::{Model, State, StateView, StepTime};
 use crate::cavity::Cavity;
 use crate::contact::WallLoad;
 use crate::law::{ContactLaw, ForceLaw};
-use crate::mount::Mount;
 use crate::observer::Observer;
 use crate::parallel::for_each;
 use crate::step_error::StepError;
@@ -44,17 +43,18 @@ impl<L: ContactLaw> Forces<L> {
 impl<L: ForceLaw> Forces<L> {
     /// Evaluates the contacts of all `blocks` at a time of the step, and sets accelerations and loads on
     /// walls. With `END`, contacts advance their memory, and `observer` is told of them.
-    pub(crate) fn evaluate<C: Cavity, M: Mount + ?Sized, O: Observer, const END: bool>(
+    pub(crate) fn evaluate<C: Cavity, const END: bool>(
         &mut self,
-        state: &mut State<C, L, M>,
+        model: &Model<C, L>,
+        state: &mut State,
         blocks: &mut [Block<L>],
         step_time: StepTime,
-        observer: &mut O,
+        observer: &mut dyn Observer,
     ) -> Result<(), StepError> {
         let [mut force, mut torque] = std::mem::take(&mut state.previous.particles);
         let view = StateView {
             step_time,
-            ..state.view(step_time.elapsed)
+            ..state.view(model, step_time.elapsed)
         };
         let widths = (force.width(), torque.width());
         let sums = (force.flat_mut(), torque.flat_mut());
@@ -67,7 +67,7 @@ impl<L: ForceLaw> Forces<L> {
                 (force, forces) = forces.split_at_mut(widths.0 * block.indices.len());
                 (torque, torques) = torques.split_at_mut(widths.1 * block.indices.len());
                 let sums = (force, torque);
-                finite &= scratch.evaluate::<C, O, END>(block, &view, gravity, sums, observer);
+                finite &= scratch.evaluate::<C, END>(block, &view, gravity, sums, observer);
             }
         } else {
             let split = |((forces, torques), scratch), blocks: &[Block<L>]| {
@@ -81,7 +81,7 @@ impl<L: ForceLaw> Forces<L> {
             finite = for_each(blocks, parts, &split, &|block, (sums, scratch)| {
                 scratch.iter_mut().all(|scratch| {
                     let sums = (&mut *sums.0, &mut *sums.1);
-                    scratch.evaluate::<C, (), END>(block, &view, gravity, sums, &mut ())
+                    scratch.evaluate::<C, END>(block, &view, gravity, sums, &mut ())
                 })
             });
         }

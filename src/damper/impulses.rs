@@ -6,13 +6,11 @@
 //! moves everything: x' = x + (v + v') dt/2. What is here serves the step alone, but for the forces that
 //! contacts at rest bore, from which the next step starts.
 
-use super::neighbours::Neighbours;
-use super::state::{Plane, Space, State, Vectors, Volume};
+use super::engine::Parts;
+use super::neighbours::{Detectors, Neighbours};
+use super::state::{Model, Plane, Space, State, Vectors, Volume};
 use crate::cavity::Cavity;
-use crate::detector::Detector;
 use crate::law::{ImpulseLaw, SolverParameters, SweepOrder};
-use crate::mount::Mount;
-use crate::observer::Observer;
 use crate::step_error::StepError;
 use constraint::{ContactConstraint, RollingConstraint};
 use container::{Container, Containers};
@@ -138,48 +136,36 @@ struct SolverStep {
 impl ContactSolver {
     /// Works out the impulses of the step of `state` that begins, and leaves the accelerations and the loads
     /// on walls that hold over it.
-    pub(crate) fn solve<C, L, M, D, O>(
+    pub(crate) fn solve<C: Cavity, L: ImpulseLaw>(
         &mut self,
-        state: &mut State<C, L, M>,
-        neighbours: &mut Neighbours<L, D>,
-        observer: &mut O,
-    ) -> Result<(), StepError>
-    where
-        C: Cavity,
-        L: ImpulseLaw,
-        M: Mount + ?Sized,
-        D: Detector,
-        O: Observer,
-    {
+        model: &Model<C, L>,
+        state: &mut State,
+        neighbours: &mut Neighbours<L>,
+        parts: &mut Parts<'_>,
+    ) -> Result<(), StepError> {
         match self {
-            Self::Plane(solver) => solver.solve(state, neighbours, observer),
-            Self::Volume(solver) => solver.solve(state, neighbours, observer),
+            Self::Plane(solver) => solver.solve(model, state, neighbours, parts),
+            Self::Volume(solver) => solver.solve(model, state, neighbours, parts),
         }
     }
 }
 
 impl<S: Space> ImpulseSolver<S> {
-    fn solve<C, L, M, D, O>(
+    fn solve<C: Cavity, L: ImpulseLaw>(
         &mut self,
-        state: &mut State<C, L, M>,
-        neighbours: &mut Neighbours<L, D>,
-        observer: &mut O,
-    ) -> Result<(), StepError>
-    where
-        C: Cavity,
-        L: ImpulseLaw,
-        M: Mount + ?Sized,
-        D: Detector,
-        O: Observer,
-    {
+        model: &Model<C, L>,
+        state: &mut State,
+        neighbours: &mut Neighbours<L>,
+        parts: &mut Parts<'_>,
+    ) -> Result<(), StepError> {
         let step = SolverStep {
             time_step: state.time_step,
-            parameters: state.model.law.solver(),
+            parameters: model.law.solver(),
         };
-        state.place_containers(state.time)?;
-        self.predict(&step, state)?;
+        state.place_containers(parts.mount, state.time)?;
+        self.predict(&step, state, parts.mount)?;
         std::mem::swap(&mut state.particles.position, &mut self.predicted);
-        let found = self.find_constraints(&step, state, neighbours);
+        let found = self.find_constraints(&step, model, state, (neighbours, parts.detectors));
         std::mem::swap(&mut state.particles.position, &mut self.predicted);
         found?;
         self.list_coupled();
@@ -191,22 +177,24 @@ impl<S: Space> ImpulseSolver<S> {
             }
         }
         self.apply(&step, state, &mut neighbours.blocks)?;
-        if observer.wants_contacts() {
-            self.report(&step, state, observer);
+        state.accelerate_mount(parts.mount, state.time);
+        if parts.observer.wants_contacts() {
+            self.report(&step, state, parts.observer);
         }
         Ok(())
     }
 
     /// Lists what is in reach, and prepares the constraints, of the bed where it will be.
-    fn find_constraints<C: Cavity, L: ImpulseLaw, M: Mount + ?Sized, D: Detector>(
+    fn find_constraints<C: Cavity, L: ImpulseLaw>(
         &mut self,
         step: &SolverStep,
-        state: &State<C, L, M>,
-        neighbours: &mut Neighbours<L, D>,
+        model: &Model<C, L>,
+        state: &State,
+        (neighbours, detectors): (&mut Neighbours<L>, &mut dyn Detectors),
     ) -> Result<(), StepError> {
-        neighbours.set_prediction_distance(state, self.prediction_distance)?;
-        neighbours.find_contacts(state, true)?;
-        self.prepare(step, state, &mut neighbours.blocks);
-        neighbours.check_overlaps(state)
+        neighbours.set_prediction_distance(state, detectors, self.prediction_distance)?;
+        neighbours.find_contacts(model, state, detectors, true)?;
+        self.prepare(step, &state.view(model, 0.0), &mut neighbours.blocks);
+        neighbours.check_overlaps(model, state)
     }
 }

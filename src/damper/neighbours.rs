@@ -1,6 +1,6 @@
 //! Neighbours: which bodies might touch (broad phase), which do (narrow phase), and what their contacts remember.
 //!
-//! In: positions, and the proposals of the detectors. Out: for each block of particles, lists of contacts in the
+//! In: positions, and the proposals of the [`Detectors`]. Out: for each block of particles, lists of contacts in the
 //! one order in which they are evaluated. Called at each evaluation of forces, and once a step under an impulse
 //! law; a list is made anew only when some particle has moved by half of its compartment's margin.
 
@@ -25,14 +25,13 @@ mod sort;
 pub(crate) use block::{BLOCK, Block, ContactHistory, ContactId};
 use block::{history_buffers, make_blocks, reserved_by, room_for};
 pub(crate) use columns::make_room;
+pub(crate) use detection::Detectors;
 pub(crate) use history::ContactRecord;
 pub(crate) use list::NeighbourList;
 
 /// The broad and the narrow phase, and what they have found.
 #[derive(Clone)]
-pub(crate) struct Neighbours<L: ContactLaw, D> {
-    /// One for each cavity.
-    pub(crate) detectors: Vec<D>,
+pub(crate) struct Neighbours<L: ContactLaw> {
     pub(crate) blocks: Vec<Block<L>>,
     /// Gap in m up to which bodies count as in contact: zero under a force law.
     prediction_distance: f64,
@@ -56,12 +55,11 @@ pub(crate) struct Neighbours<L: ContactLaw, D> {
     pub(crate) since_sort: u32,
 }
 
-impl<L: ContactLaw, D> Neighbours<L, D> {
-    /// Nothing found yet of `particles`, whose cavities have these detectors.
-    pub(crate) fn new(detectors: Vec<D>, particles: &Particles) -> Self {
+impl<L: ContactLaw> Neighbours<L> {
+    /// Nothing found yet of `particles`.
+    pub(crate) fn new(particles: &Particles) -> Self {
         let count = particles.len();
         let mut neighbours = Self {
-            detectors,
             blocks: make_blocks(count),
             prediction_distance: 0.0,
             listed_distance: 0.0,

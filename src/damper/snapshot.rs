@@ -10,8 +10,8 @@ use glam::DVec3;
 
 use super::Damper;
 use super::engine::Engine;
-use super::neighbours::ContactRecord;
-use super::state::{Clock, MountCoordinates, Setup};
+use super::neighbours::{ContactRecord, Detectors};
+use super::state::{Clock, MountCoordinates, Setup, State};
 use crate::cavity::Cavity;
 use crate::contact::WallLoad;
 use crate::detector::Detector;
@@ -19,6 +19,7 @@ use crate::digest::Digest;
 use crate::integrator::Integrator;
 use crate::law::{ContactLaw, ContactMemory, LawKind};
 use crate::mount::{Load, Motion, Mount};
+use crate::step_error::StepError;
 
 mod any;
 mod check;
@@ -162,36 +163,17 @@ impl BareSnapshot {
     }
 }
 
-impl<C, L, M, D, I> Damper<C, L, M, D, I>
-where
-    C: Cavity,
-    L: ContactLaw,
-    M: Mount,
-    D: Detector,
-    I: Integrator,
-{
-    /// The state of the damper.
-    #[must_use]
-    pub fn snapshot(&self) -> Snapshot<ContactMemory<L>> {
-        let mut snapshot = Snapshot {
-            state: self.bare_snapshot(),
-            memory: self.engine.neighbours.history(self.engine.state.stamp),
-        };
-        snapshot.state.digest = snapshot.digest(&self.engine.state.model.law);
-        snapshot
-    }
-
-    /// All but the contacts and the digest.
-    fn bare_snapshot(&self) -> BareSnapshot {
-        let state = &self.engine.state;
+impl BareSnapshot {
+    /// That of `state`.
+    fn new(state: &State, setup: Setup, clock: Clock, since_sort: u32) -> Self {
         let particles = &state.particles;
-        let compartments = state.model.compartments.iter();
-        BareSnapshot {
+        let compartments = state.compartments.iter();
+        Self {
             version: VERSION,
             digest: Digest::default(),
-            setup: self.setup,
-            clock: self.clock,
-            since_sort: self.engine.neighbours.since_sort,
+            setup,
+            clock,
+            since_sort,
             species: particles.species.clone(),
             number: particles.id.clone(),
             position: particles.position.iter().collect(),
@@ -206,56 +188,88 @@ where
         }
     }
 
+    /// Puts `state` into this one, which fits it.
+    fn apply(&self, state: &mut State) {
+        let particles = &mut state.particles;
+        particles.rearrange(&self.number);
+        for (column, saved) in [
+            (&mut particles.position, &self.position),
+            (&mut particles.velocity, &self.velocity),
+            (&mut particles.spin, &self.spin),
+            (&mut particles.acceleration, &self.acceleration),
+            (
+                &mut particles.angular_acceleration,
+                &self.angular_acceleration,
+            ),
+        ] {
+            column.assign(saved.iter().copied());
+        }
+        state.mount_coordinates.clone_from(&self.mount);
+        state.wall_loads.clone_from(&self.wall_loads);
+        state.loads.clone_from(&self.loads);
+        let compartments = state.compartments.iter_mut();
+        for (compartment, motion) in compartments.zip(&self.containers) {
+            compartment.place(*motion);
+        }
+        state.time = self.clock.time();
+    }
+}
+
+impl<C: Cavity, L: ContactLaw> Engine<C, L> {
+    fn snapshot(&self, setup: Setup, clock: Clock) -> Snapshot<ContactMemory<L>> {
+        let (state, neighbours) = (&self.state, &self.neighbours);
+        let mut snapshot = Snapshot {
+            state: BareSnapshot::new(state, setup, clock, neighbours.since_sort),
+            memory: neighbours.history(state.stamp),
+        };
+        snapshot.state.digest = snapshot.digest(&self.model.law);
+        snapshot
+    }
+
+    /// Puts everything into the state of a `snapshot` that fits.
+    fn restore(
+        &mut self,
+        snapshot: &Snapshot<ContactMemory<L>>,
+        detectors: &mut dyn Detectors,
+    ) -> Result<(), StepError> {
+        snapshot.state.apply(&mut self.state);
+        let neighbours = &mut self.neighbours;
+        neighbours.since_sort = snapshot.state.since_sort;
+        let memory = Some(&snapshot.memory);
+        neighbours.list(&self.model, &self.state, detectors, memory)
+    }
+}
+
+impl<C, L, M, D, I> Damper<C, L, M, D, I>
+where
+    C: Cavity,
+    L: ContactLaw,
+    M: Mount,
+    D: Detector,
+    I: Integrator,
+{
+    /// The state of the damper.
+    #[must_use]
+    pub fn snapshot(&self) -> Snapshot<ContactMemory<L>> {
+        self.engine.snapshot(self.setup, self.clock)
+    }
+
     /// Puts the damper into the state of `snapshot`, from which it goes on to the same bits.
     ///
     /// # Errors
     /// If the snapshot is of another version or setup, or is damaged; the damper is then as before.
     pub fn restore(&mut self, snapshot: &Snapshot<ContactMemory<L>>) -> Result<(), RestoreError> {
         snapshot.check(&self.engine, &self.setup)?;
-        let Snapshot {
-            state: saved,
-            memory,
-        } = snapshot;
-        let Engine {
-            state, neighbours, ..
-        } = &mut self.engine;
-        let particles = &mut state.particles;
-        particles.rearrange(&saved.number);
-        for (column, saved) in [
-            (&mut particles.position, &saved.position),
-            (&mut particles.velocity, &saved.velocity),
-            (&mut particles.spin, &saved.spin),
-            (&mut particles.acceleration, &saved.acceleration),
-            (
-                &mut particles.angular_acceleration,
-                &saved.angular_acceleration,
-            ),
-        ] {
-            column.assign(saved.iter().copied());
-        }
-        state.mount_coordinates.clone_from(&saved.mount);
-        state.wall_loads.clone_from(&saved.wall_loads);
-        state.loads.clone_from(&saved.loads);
-        let compartments = state.model.compartments.iter_mut();
-        for (compartment, motion) in compartments.zip(&saved.containers) {
-            compartment.place(*motion);
-        }
-        state.mount.resume(&saved.containers);
-        self.clock = saved.clock;
-        neighbours.since_sort = saved.since_sort;
-        state.time = self.clock.time();
-        neighbours.list(state, Some(memory))?;
-        Ok(())
+        self.mount.resume(&snapshot.state.containers);
+        self.clock = snapshot.state.clock;
+        Ok(self.engine.restore(snapshot, &mut self.detectors)?)
     }
 
     /// Puts the damper into the state of `other`, which differs in what drives it and in its time step. Its
     /// own time goes on.
     pub(crate) fn take_over(&mut self, other: &Self) -> Result<(), RestoreError> {
-        let mut snapshot = other.snapshot();
-        let state = &mut snapshot.state;
-        state.clock = self.clock;
-        state.setup = state.setup.under_steps_of(self.time_step);
-        snapshot.state.digest = snapshot.digest(&self.engine.state.model.law);
+        let setup = other.setup.under_steps_of(self.time_step);
+        let snapshot = other.engine.snapshot(setup, self.clock);
         self.restore(&snapshot)
     }
 }

@@ -1,12 +1,12 @@
-//! The state of a damper and what it is made of: particles in columns, compartments, the mount's coordinates,
-//! the clock, and the model that contacts follow.
+//! The state of a damper: particles in columns, compartments, the mount's coordinates and the clock; and the
+//! model that its contacts follow.
 //!
 //! In: what the builder checked. Out: columns that the stages read and change; a [`StateView`] for those that
-//! only read. Called by every stage; calls none.
+//! only read. Called by every stage; calls none. The state is of one type, whatever the damper is made of, and
+//! what works on it alone is compiled once.
 
 use glam::DVec3;
 
-use crate::cavity::Cavity;
 use crate::contact::WallLoad;
 use crate::law::ContactLaw;
 use crate::mount::{Load, Mobilities};
@@ -44,12 +44,18 @@ pub(crate) use vectors::Axes;
 pub(crate) use vectors::{Rows, Vectors};
 pub(crate) use view::{StateView, StepTime};
 
-/// Everything that a step changes, and what it follows.
-#[derive(Clone)]
-pub(crate) struct State<C, L: ContactLaw, M: ?Sized> {
-    pub(crate) model: Model<C, L>,
+/// Everything that a step changes, and the numbers that it goes by.
+#[derive(Debug, Clone)]
+pub(crate) struct State {
     pub(crate) gravity: DVec3,
     pub(crate) particles: Particles,
+    pub(crate) compartments: Vec<Compartment>,
+    /// Number of the compartment of each wall.
+    pub(crate) compartment_of_wall: Vec<u32>,
+    /// Whether everything moves in the plane z = 0.
+    pub(crate) planar: bool,
+    /// How many coordinates the mount has.
+    pub(crate) degrees: usize,
     pub(crate) mount_coordinates: MountCoordinates,
     pub(crate) previous: PreviousAccelerations,
     /// Loads of the particles on each wall, all cavities in turn.
@@ -69,21 +75,26 @@ pub(crate) struct State<C, L: ContactLaw, M: ?Sized> {
     pub(crate) overlap_limit: f64,
     /// Whether a particle behind a wall is an error.
     pub(crate) contained: bool,
-    /// Last, so that where little is optimised a step can be compiled once for all mounts.
-    pub(crate) mount: M,
+    /// Whether contact forces are held over a step, as those of an impulse law are.
+    pub(crate) holds_forces: bool,
+    /// The speed of impacts that the contact law is set up for, m/s.
+    pub(crate) design_speed: f64,
 }
 
-impl<C: Cavity, L: ContactLaw, M: ?Sized> State<C, L, M> {
-    /// The state `elapsed` seconds after the contact history was advanced, to be read.
-    pub(crate) fn view(&self, elapsed: f64) -> StateView<'_, C, L> {
-        let Self {
-            model, particles, ..
-        } = self;
+impl State {
+    /// The state `elapsed` seconds after the contact history was advanced, to be read beside the `model`.
+    pub(crate) fn view<'a, C, L: ContactLaw>(
+        &'a self,
+        model: &'a Model<C, L>,
+        elapsed: f64,
+    ) -> StateView<'a, C, L> {
+        let particles = &self.particles;
         StateView {
             law: &model.law,
             coefficients: &model.coefficients,
-            compartments: &model.compartments,
-            compartment_of_wall: &model.compartment_of_wall,
+            cavities: &model.cavities,
+            compartments: &self.compartments,
+            compartment_of_wall: &self.compartment_of_wall,
             position: particles.position.rows(),
             velocity: particles.velocity.rows(),
             spin: particles.spin.rows(),
@@ -99,7 +110,22 @@ impl<C: Cavity, L: ContactLaw, M: ?Sized> State<C, L, M> {
                 time_step: self.time_step,
             },
             stamp: self.stamp,
-            planar: model.planar(),
+            planar: self.planar,
         }
+    }
+
+    /// Number of the cavity whose particle is at `index`.
+    pub(crate) fn cavity_of(&self, index: usize) -> usize {
+        self.compartments
+            .partition_point(|compartment| compartment.indices.end <= index)
+    }
+
+    /// The mount's own coordinates, and their rates.
+    #[inline]
+    pub(crate) fn mount_state(&self) -> [&[f64]; 2] {
+        let MountCoordinates {
+            position, velocity, ..
+        } = &self.mount_coordinates;
+        [&position[..self.degrees], &velocity[..self.degrees]]
     }
 }

@@ -1,16 +1,15 @@
 //! A step: the stages in their order.
 //!
-//! In: the state at its start, an integrator, and who watches. Out: the state at its end. Called by the damper,
-//! once for each step of its own and as often as a drive takes.
+//! In: the state at its start, an integrator, and the parts that it asks. Out: the state at its end, and what
+//! observers are told. Called by the damper, once for each step of its own and as often as a drive takes.
 
-use super::engine::Engine;
+use super::engine::{Engine, Parts};
+use super::observable::Observed;
 use super::state::Clock;
 use crate::cavity::Cavity;
-use crate::detector::Detector;
 use crate::integrator::{Integrator, Stage};
 use crate::law::{ContactLaw, LawKind};
-use crate::mount::Mount;
-use crate::observer::Observer;
+use crate::observer::StepReport;
 use crate::step_error::StepError;
 
 mod by_law;
@@ -19,55 +18,70 @@ mod system;
 use by_law::{EvaluateForces, SolveImpulses};
 use system::SteppedSystem;
 
-impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized, D: Detector> Engine<C, L, M, D> {
+impl<C: Cavity, L: ContactLaw> Engine<C, L> {
     /// Moves everything on by `dt` (s).
-    pub(crate) fn step<I: Integrator + ?Sized, O: Observer>(
+    pub(crate) fn step(
         &mut self,
         dt: f64,
         clock: &mut Clock,
-        integrator: &mut I,
-        observer: &mut O,
+        integrator: &mut dyn Integrator,
+        parts: &mut Parts<'_>,
     ) -> Result<(), StepError> {
         self.state.begin_step(dt);
         self.state.check_passages()?;
-        self.neighbours.sort_in_time(&mut self.state)?;
-        self.solve_impulses(observer)?;
+        self.sort_in_time(parts)?;
+        self.solve_impulses(parts)?;
         // Asks to evaluate forces, once or more.
-        integrator.step(&mut SteppedSystem::new(self, observer, clock), dt)?;
+        integrator.step(&mut SteppedSystem::new(self, parts, clock), dt)?;
         self.state.end_step();
-        self.state.rebase_mount();
+        self.state.rebase_mount(parts.mount);
         self.state.check_course()?;
         self.state.time = clock.advance(dt);
+        let observed = Observed::new(self, parts.mount);
+        parts
+            .observer
+            .step(&StepReport::new(clock.time(), dt, &observed));
         Ok(())
     }
 
+    /// Sorts a large bed if it is time to.
+    fn sort_in_time(&mut self, parts: &mut Parts<'_>) -> Result<(), StepError> {
+        let Self {
+            model,
+            state,
+            neighbours,
+            ..
+        } = self;
+        neighbours.sort_in_time(model, state, parts.detectors)
+    }
+
     /// Accelerations of the current state at `time`, `elapsed` after the contact history was advanced.
-    pub(crate) fn evaluate<O: Observer>(
+    pub(crate) fn evaluate(
         &mut self,
         time: f64,
         elapsed: f64,
         stage: Stage,
         afresh: bool,
-        observer: &mut O,
+        parts: &mut Parts<'_>,
     ) -> Result<(), StepError> {
-        self.state.place_containers(time)?;
+        self.state.place_containers(parts.mount, time)?;
         L::Kind::accept(EvaluateForces {
             engine: self,
             elapsed,
             stage,
             afresh,
-            observer,
+            parts,
         })?;
         self.state.keep_mount_accelerations();
-        self.state.accelerate_mount(time);
+        self.state.accelerate_mount(parts.mount, time);
         Ok(())
     }
 
     /// Works out what holds over the step under an impulse law.
-    fn solve_impulses<O: Observer>(&mut self, observer: &mut O) -> Result<(), StepError> {
+    fn solve_impulses(&mut self, parts: &mut Parts<'_>) -> Result<(), StepError> {
         L::Kind::accept(SolveImpulses {
             engine: self,
-            observer,
+            parts,
         })
     }
 }

@@ -105,12 +105,7 @@ pub(crate) struct Mobilities {
 
 impl Mobilities {
     /// Those of a mount in a state.
-    pub(crate) fn new<M: Mount + ?Sized>(
-        mount: &M,
-        time: f64,
-        state: [&[f64]; 2],
-        cavities: usize,
-    ) -> Self {
+    pub(crate) fn new(mount: &dyn Mount, time: f64, state: [&[f64]; 2], cavities: usize) -> Self {
         let mut new = Self {
             cavities,
             ..Self::default()
@@ -120,9 +115,9 @@ impl Mobilities {
     }
 
     /// Works them out in another state: coordinates and their rates.
-    pub(crate) fn update<M: Mount + ?Sized>(
+    pub(crate) fn update(
         &mut self,
-        mount: &M,
+        mount: &dyn Mount,
         time: f64,
         [coordinates, velocities]: [&[f64]; 2],
     ) {

@@ -1,11 +1,12 @@
 //! From a builder to a damper.
 
-use super::check::{cavity_limits, check_counts, check_particles};
-use super::{BuildError, Builder};
+use super::check::{cavity_limits, check_counts, check_numbers, check_particles};
+use super::time_step::{choose_time_step, contacts_bear};
+use super::{BuildError, Builder, Settings};
 use crate::cavity::Cavity;
 use crate::contact::{Body, WallLoad};
 use crate::damper::Damper;
-use crate::damper::engine::Engine;
+use crate::damper::engine::{Engine, Parts};
 use crate::damper::forces::Forces;
 use crate::damper::impulses::ContactSolver;
 use crate::damper::neighbours::Neighbours;
@@ -36,119 +37,152 @@ where
     ///
     /// # Errors
     /// A [`BuildError`] for the first thing that cannot be: it holds the value and the bound.
-    pub fn build(mut self) -> Result<Damper<C, L, M, D, I>, BuildError> {
-        self.check_numbers()?;
-        let walls = check_counts(&self.particles, &self.cavities)?;
-        self.hand_out_detectors()?;
-        check_particles(
-            &self.particles,
-            &cavity_limits(&self.cavities),
-            self.initial_overlap,
-        )?;
-        let numbers = order_by_cavity(&mut self.particles);
-        let planar = self.cavities.iter().all(Cavity::is_planar);
-        let particles = Particles::new(&self.particles, numbers, planar);
-        let coefficients = Coefficients::new(&self.law, &particles.kinds, self.wall_material)?;
-        L::Kind::accept(CheckLaw(&self.law))?;
-        let mount_coordinates = MountCoordinates::new(&self.mount, self.cavities.len());
-        let smallest = particles.smallest_radius;
-        let degrees = self.mount.degrees();
-        let own = &mount_coordinates;
-        let own = [own.own(degrees), own.own_rates(degrees)];
-        let count = self.cavities.len();
-        let mobilities = Mobilities::new(&self.mount, self.start_time, own, count);
-        let compartments = self.compartments(smallest, &mobilities);
-        let yielding = compartments.iter().map(Compartment::greatest_inverse_mass);
-        let wall = Body {
-            mass: 1.0 / yielding.fold(0.0, f64::max),
-            ..Body::wall(self.wall_material)
+    pub fn build(self) -> Result<Damper<C, L, M, D, I>, BuildError> {
+        let cavities = self.cavities.len();
+        let mut detectors = hand_out(self.detectors, self.copy, cavities)?;
+        let start_time = self.settings.start_time;
+        let mut parts = Parts {
+            mount: &self.mount,
+            detectors: &mut detectors,
+            observer: &mut (),
         };
-        let time_step = self.choose_time_step(&coefficients, wall, &particles)?;
-        let neighbours = Neighbours::new(self.detectors, &particles);
-        // What the kind of the law does not need is not there.
-        let blocks = if L::Kind::HELD {
-            0
-        } else {
-            neighbours.blocks.len()
-        };
-        let mut engine = Engine {
-            neighbours,
-            forces: Forces::new(blocks, walls),
-            impulses: L::Kind::HELD.then(|| ContactSolver::new(&particles.position, planar)),
-            state: State {
-                previous: PreviousAccelerations::new(&particles, &mount_coordinates),
-                mount_coordinates,
-                mount: self.mount,
-                gravity: self.gravity,
-                particles,
-                wall_loads: vec![WallLoad::default(); walls],
-                loads: vec![Load::default(); compartments.len()],
-                mobilities,
-                model: Model {
-                    law: self.law,
-                    coefficients,
-                    compartment_of_wall: compartment_of_wall(&compartments),
-                    compartments,
-                },
-                time: self.start_time,
-                stamp: 0,
-                time_step,
-                step_start: StepStart::default(),
-                overlap_limit: self.overlap_limit * smallest,
-                contained: self.contained,
-            },
-        };
-        engine.start(self.initial_overlap * smallest)?;
+        let engine = assemble(self.cavities, self.law, self.settings, &mut parts)?;
+        let time_step = engine.state.time_step;
         Ok(Damper {
-            setup: Setup::new(&engine.state, time_step),
+            setup: Setup::new(&engine.model, &engine.state, time_step),
             engine,
+            mount: self.mount,
+            detectors,
             integrator: self.integrator,
-            clock: Clock::showing(self.start_time),
+            clock: Clock::showing(start_time),
             time_step,
         })
     }
+}
 
-    /// Gives each cavity a detector of its own.
-    fn hand_out_detectors(&mut self) -> Result<(), BuildError> {
-        let cavities = self.cavities.len();
-        if let ([detector], Some(copy)) = (&self.detectors[..], self.copy) {
-            let more: Vec<D> = (1..cavities).map(|_| copy(detector)).collect();
-            self.detectors.extend(more);
+/// Gives each of so many `cavities` a detector of its own.
+fn hand_out<D>(
+    mut detectors: Vec<D>,
+    copy: Option<fn(&D) -> D>,
+    cavities: usize,
+) -> Result<Vec<D>, BuildError> {
+    if let ([detector], Some(copy)) = (&detectors[..], copy) {
+        let more: Vec<D> = (1..cavities).map(|_| copy(detector)).collect();
+        detectors.extend(more);
+    }
+    if detectors.len() == cavities {
+        return Ok(detectors);
+    }
+    Err(BuildError::DetectorCount {
+        detectors: detectors.len(),
+        cavities,
+    })
+}
+
+/// The engine of a damper, at its start.
+fn assemble<C: Cavity, L: ContactLaw>(
+    cavities: Vec<C>,
+    law: L,
+    mut settings: Settings,
+    parts: &mut Parts<'_>,
+) -> Result<Engine<C, L>, BuildError> {
+    let mount = parts.mount;
+    let flat = cavities.iter().any(Cavity::is_planar);
+    check_numbers(&settings, flat)?;
+    if let Some(jump) = mount.jump() {
+        return Err(BuildError::BaseJumps(jump));
+    }
+    let walls = check_counts(&settings.particles, &cavities)?;
+    let limits = cavity_limits(&cavities);
+    check_particles(&settings.particles, &limits, settings.initial_overlap)?;
+    let numbers = order_by_cavity(&mut settings.particles);
+    let planar = cavities.iter().all(Cavity::is_planar);
+    let particles = Particles::new(&settings.particles, numbers, planar);
+    let coefficients = Coefficients::new(&law, &particles.kinds, settings.wall_material)?;
+    L::Kind::accept(CheckLaw(&law))?;
+    let mount_coordinates = MountCoordinates::new(mount, cavities.len());
+    let smallest = particles.smallest_radius;
+    let degrees = mount.degrees();
+    let own = [&mount_coordinates.position, &mount_coordinates.velocity].map(|own| &own[..degrees]);
+    let mobilities = Mobilities::new(mount, settings.start_time, own, cavities.len());
+    let margins = |cavity| {
+        if smallest.is_finite() {
+            let skin = parts.detectors.of(cavity).skin(smallest);
+            skin.max(STAGE_MARGIN * smallest)
+        } else {
+            0.0
         }
-        if self.detectors.len() == cavities {
-            return Ok(());
-        }
-        Err(BuildError::DetectorCount {
-            detectors: self.detectors.len(),
+    };
+    let compartments = compartments(&cavities, &settings.particles, margins, &mobilities);
+    let yielding = compartments.iter().map(Compartment::greatest_inverse_mass);
+    let wall = Body {
+        mass: 1.0 / yielding.fold(0.0, f64::max),
+        ..Body::wall(settings.wall_material)
+    };
+    let contacts = contacts_bear(&law, &coefficients, wall, &particles)?;
+    let time_step = choose_time_step(settings.time_step, contacts, mount)?;
+    let neighbours = Neighbours::new(&particles);
+    // What the kind of the law does not need is not there.
+    let blocks = if L::Kind::HELD {
+        0
+    } else {
+        neighbours.blocks.len()
+    };
+    let mut engine = Engine {
+        neighbours,
+        forces: Forces::new(blocks, walls),
+        impulses: L::Kind::HELD.then(|| ContactSolver::new(&particles.position, planar)),
+        state: State {
+            previous: PreviousAccelerations::new(&particles, &mount_coordinates),
+            mount_coordinates,
+            gravity: settings.gravity,
+            particles,
+            planar,
+            degrees,
+            wall_loads: vec![WallLoad::default(); walls],
+            loads: vec![Load::default(); compartments.len()],
+            mobilities,
+            compartment_of_wall: compartment_of_wall(&compartments),
+            compartments,
+            time: settings.start_time,
+            stamp: 0,
+            time_step,
+            step_start: StepStart::default(),
+            overlap_limit: settings.overlap_limit * smallest,
+            contained: settings.contained,
+            holds_forces: L::Kind::HELD,
+            design_speed: law.design_speed(),
+        },
+        model: Model {
+            law,
+            coefficients,
             cavities,
-        })
-    }
+        },
+    };
+    engine.start(settings.initial_overlap * smallest, parts)?;
+    Ok(engine)
+}
 
-    fn compartments(
-        &mut self,
-        smallest_radius: f64,
-        mobilities: &Mobilities,
-    ) -> Vec<Compartment<C>> {
-        let (mut index, mut wall) = (0, 0);
-        let mut compartments = Vec::new();
-        for (number, cavity) in std::mem::take(&mut self.cavities).into_iter().enumerate() {
-            let own = |particle: &&Particle| particle.cavity as usize == number;
-            let end = index + self.particles.iter().filter(own).count();
-            let walls = cavity.walls();
-            let margin = if smallest_radius.is_finite() {
-                let skin = self.detectors[number].skin(smallest_radius);
-                skin.max(STAGE_MARGIN * smallest_radius)
-            } else {
-                0.0
-            };
-            let mut compartment = Compartment::new(cavity, index..end, wall, margin);
-            compartment.mobility = mobilities.own(number);
-            compartments.push(compartment);
-            index = end;
-            wall += walls;
-        }
-        compartments
+/// A compartment for each of `cavities`, with those of `particles` that are in it; `margin` tells how much
+/// farther than they reach its candidates are listed, m.
+fn compartments<C: Cavity>(
+    cavities: &[C],
+    particles: &[Particle],
+    mut margin: impl FnMut(usize) -> f64,
+    mobilities: &Mobilities,
+) -> Vec<Compartment> {
+    let (mut index, mut wall) = (0, 0);
+    let mut compartments = Vec::new();
+    for (number, cavity) in cavities.iter().enumerate() {
+        let own = |particle: &&Particle| particle.cavity as usize == number;
+        let end = index + particles.iter().filter(own).count();
+        let mut compartment = Compartment::new(cavity, index..end, wall, margin(number));
+        compartment.mobility = mobilities.own(number);
+        index = end;
+        wall += compartment.walls;
+        compartments.push(compartment);
     }
+    compartments
 }
 
 /// Refuses an impulse law whose solver cannot work so.
@@ -184,9 +218,9 @@ fn order_by_cavity(particles: &mut Vec<Particle>) -> Vec<u32> {
 }
 
 /// Number of the compartment of each wall.
-fn compartment_of_wall<C: Cavity>(compartments: &[Compartment<C>]) -> Vec<u32> {
+fn compartment_of_wall(compartments: &[Compartment]) -> Vec<u32> {
     let compartments = compartments.iter().zip(0..);
     compartments
-        .flat_map(|(compartment, number)| (0..compartment.cavity.walls()).map(move |_| number))
+        .flat_map(|(compartment, number)| (0..compartment.walls).map(move |_| number))
         .collect()
 }

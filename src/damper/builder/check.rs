@@ -1,50 +1,33 @@
 //! What a damper is built from: whatever can be refused is.
-//!
-//! What does not depend on the types of the parts is not a method of the builder, so that it is compiled once.
 
 use glam::DVec3;
 
-use super::{BuildError, Builder};
+use super::{BuildError, Settings};
 use crate::cavity::Cavity;
 use crate::damper::neighbours::BLOCK;
 use crate::error::{Bound, ValueError};
-use crate::mount::Mount;
 use crate::particle::Particle;
 
 /// The most walls: each block of particles keeps a sum for each.
 const MOST_WALLS: u64 = 1 << 20;
 
-impl<C: Cavity, L, M: Mount, D, I> Builder<C, L, M, D, I> {
-    /// Refuses numbers that cannot be, and a mount that jumps.
-    pub(super) fn check_numbers(&self) -> Result<(), BuildError> {
-        let fractions = [self.initial_overlap, self.overlap_limit];
-        check_numbers(self.gravity, self.time_step, self.start_time, fractions)?;
-        if let Some(jump) = self.mount.jump() {
-            return Err(BuildError::BaseJumps(jump));
-        }
-        if self.cavities.iter().any(Cavity::is_planar) {
-            in_plane("gravity", self.gravity)?;
-        }
-        Ok(())
-    }
-}
-
-fn check_numbers(
-    gravity: DVec3,
-    time_step: Option<f64>,
-    start_time: f64,
-    [initial_overlap, overlap_limit]: [f64; 2],
-) -> Result<(), ValueError> {
-    for component in gravity.to_array() {
+/// Refuses numbers that cannot be.
+pub(super) fn check_numbers(settings: &Settings, planar: bool) -> Result<(), BuildError> {
+    for component in settings.gravity.to_array() {
         Bound::Finite.check("gravity (m/s^2)", component)?;
     }
-    if let Some(time_step) = time_step {
+    if let Some(time_step) = settings.time_step {
         Bound::Positive.check("time step (s)", time_step)?;
     }
-    Bound::Finite.check("start time (s)", start_time)?;
-    Bound::NonNegative.check("initial overlap (fraction of a radius)", initial_overlap)?;
+    Bound::Finite.check("start time (s)", settings.start_time)?;
+    let quantity = "initial overlap (fraction of a radius)";
+    Bound::NonNegative.check(quantity, settings.initial_overlap)?;
+    let overlap_limit = settings.overlap_limit;
     if overlap_limit.is_nan() || overlap_limit <= 0.0 {
         Bound::Positive.check("overlap limit (fraction of a radius)", overlap_limit)?;
+    }
+    if planar {
+        in_plane("gravity", settings.gravity)?;
     }
     Ok(())
 }

@@ -5,51 +5,40 @@ use glam::DVec3;
 use super::BuildError;
 use super::check::in_plane;
 use crate::cavity::Cavity;
-use crate::damper::engine::Engine;
-use crate::detector::Detector;
+use crate::damper::engine::{Engine, Parts};
+use crate::damper::state::State;
 use crate::integrator::Stage;
 use crate::law::ContactLaw;
-use crate::mount::{Mobility, Mount};
+use crate::mount::Mobility;
 
-impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized, D: Detector> Engine<C, L, M, D> {
+impl<C: Cavity, L: ContactLaw> Engine<C, L> {
     /// Places the containers and the particles in them, refuses overlaps of more than `allowed` (m),
     /// and evaluates the first accelerations.
-    pub(super) fn start(&mut self, allowed: f64) -> Result<(), BuildError> {
-        self.check_mount()?;
-        self.state.place_containers(self.state.time)?;
-        for compartment in &self.state.model.compartments {
+    pub(super) fn start(&mut self, allowed: f64, parts: &mut Parts<'_>) -> Result<(), BuildError> {
+        let Self {
+            model,
+            state,
+            neighbours,
+            ..
+        } = self;
+        check_mount(state)?;
+        state.place_containers(parts.mount, state.time)?;
+        for compartment in &state.compartments {
             for index in compartment.indices.clone() {
-                let position = compartment.to_fixed(self.state.particles.position.get(index));
-                self.state.particles.position.set(index, position);
+                let position = compartment.to_fixed(state.particles.position.get(index));
+                state.particles.position.set(index, position);
             }
         }
-        self.neighbours.prepare_detectors(&self.state)?;
-        self.neighbours.sort(&mut self.state);
-        self.neighbours.find_contacts(&self.state, true)?;
+        neighbours.prepare_detectors(state, parts.detectors)?;
+        neighbours.sort(state);
+        neighbours.find_contacts(model, state, parts.detectors, true)?;
         self.check_initial_overlaps(allowed)?;
-        Ok(self.evaluate(self.state.time, 0.0, Stage::Trial, false, &mut ())?)
-    }
-
-    /// Refuses a mount that loads cannot move, and one that leaves the plane of a planar cavity.
-    fn check_mount(&self) -> Result<(), BuildError> {
-        let mobilities = self.state.mobilities.all();
-        if self.state.mount.degrees() > 0 && mobilities.iter().all(|own| *own == Mobility::ZERO) {
-            return Err(BuildError::ImmovableMount {
-                degrees: self.state.mount.degrees(),
-            });
-        }
-        let compartments = &self.state.model.compartments;
-        for (mobility, compartment) in mobilities.iter().zip(compartments.iter().cycle()) {
-            if compartment.cavity.is_planar() {
-                check_plane(mobility)?;
-            }
-        }
-        Ok(())
+        Ok(self.evaluate(self.state.time, 0.0, Stage::Trial, false, parts)?)
     }
 
     /// Refuses two particles, or a particle and a wall, that overlap by more than `limit` (m).
     fn check_initial_overlaps(&self, limit: f64) -> Result<(), BuildError> {
-        let view = self.state.view(0.0);
+        let view = self.state.view(&self.model, 0.0);
         for block in &self.neighbours.blocks {
             let mut pairs = block.overlapping_pairs(&view);
             if let Some((overlap, first, second)) = pairs.find(|pair| pair.0 > limit) {
@@ -74,6 +63,22 @@ impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized, D: Detector> Engine<C, L, M, D
         }
         Ok(())
     }
+}
+
+/// Refuses a mount that loads cannot move, and one that leaves the plane of a planar cavity.
+fn check_mount(state: &State) -> Result<(), BuildError> {
+    let mobilities = state.mobilities.all();
+    if state.degrees > 0 && mobilities.iter().all(|own| *own == Mobility::ZERO) {
+        return Err(BuildError::ImmovableMount {
+            degrees: state.degrees,
+        });
+    }
+    for (mobility, compartment) in mobilities.iter().zip(state.compartments.iter().cycle()) {
+        if compartment.planar {
+            check_plane(mobility)?;
+        }
+    }
+    Ok(())
 }
 
 /// Refuses a mount that leaves the plane, as it shows in how it yields.

@@ -1,6 +1,6 @@
 //! The longest step that every part bears.
 
-use super::{BuildError, Builder, StepBound};
+use super::{BuildError, StepBound};
 use crate::contact::Body;
 use crate::damper::state::{Coefficients, Particles};
 use crate::error::Bound;
@@ -15,79 +15,74 @@ const PER_PERIOD: f64 = 20.0;
 const PER_FEATURE: f64 = 10.0;
 
 /// A longest step (s), and what sets it.
-type Limit = (f64, Option<StepBound>);
+pub(super) type Limit = (f64, Option<StepBound>);
 
-impl<C, L: ContactLaw, M: Mount, D, I> Builder<C, L, M, D, I> {
-    /// The step that was asked for, or half of what the law bears and no more than the others do; `wall`
-    /// yields like the lightest container.
-    pub(super) fn choose_time_step(
-        &self,
-        coefficients: &Coefficients<L::Coefficients>,
-        wall: Body,
-        particles: &Particles,
-    ) -> Result<f64, BuildError> {
-        let contacts = self.contacts_bear(coefficients, wall, particles)?;
-        let others = shorter(self.mount_bears()?, self.excitation_bears()?);
-        if let Some(time_step) = self.time_step {
-            return match shorter(contacts, others) {
-                (limit, Some(bound)) if time_step > limit => Err(BuildError::TimeStepTooLong {
-                    time_step,
-                    limit,
-                    bound,
-                }),
-                _ => Ok(time_step),
-            };
-        }
-        let time_step = others.0.min(0.5 * contacts.0);
-        if time_step.is_finite() {
-            Ok(Bound::Positive.check("time step (s) from the limits of the parts", time_step)?)
-        } else {
-            Err(BuildError::NoTimeStep)
-        }
-    }
-
-    fn contacts_bear(
-        &self,
-        coefficients: &Coefficients<L::Coefficients>,
-        wall: Body,
-        particles: &Particles,
-    ) -> Result<Limit, LawError> {
-        let (limit, kinds) = coefficients.time_step_limit(&self.law, wall)?;
-        let example = |kind: u32| {
-            let mut indices = particles.species.iter().zip(&particles.id);
-            indices.find_map(|(species, number)| (*species == kind).then_some(*number as usize))
+/// The step that was `asked` for, or half of what contacts bear and no more than the mount and its excitation
+/// do.
+pub(super) fn choose_time_step(
+    asked: Option<f64>,
+    contacts: Limit,
+    mount: &dyn Mount,
+) -> Result<f64, BuildError> {
+    let others = shorter(mount_bears(mount)?, excitation_bears(mount)?);
+    if let Some(time_step) = asked {
+        return match shorter(contacts, others) {
+            (limit, Some(bound)) if time_step > limit => Err(BuildError::TimeStepTooLong {
+                time_step,
+                limit,
+                bound,
+            }),
+            _ => Ok(time_step),
         };
-        let bound = kinds.and_then(|(kind, other)| {
-            let particle = example(kind)?;
-            Some(match other {
-                // A kind may stand for a single particle.
-                Some(other) => StepBound::Pair {
-                    first: particle,
-                    second: example(other)?,
-                },
-                None => StepBound::Wall { particle },
-            })
-        });
-        Ok((limit, bound))
     }
+    let time_step = others.0.min(0.5 * contacts.0);
+    if time_step.is_finite() {
+        Ok(Bound::Positive.check("time step (s) from the limits of the parts", time_step)?)
+    } else {
+        Err(BuildError::NoTimeStep)
+    }
+}
 
-    fn mount_bears(&self) -> Result<Limit, BuildError> {
-        let quantity = "highest natural frequency of the mount (Hz)";
-        let frequency = Bound::NonNegative.check(quantity, self.mount.highest_frequency())?;
-        let bound = StepBound::NaturalFrequency { frequency };
-        Ok((1.0 / (PER_PERIOD * frequency), Some(bound)))
-    }
+/// What `law` bears of contacts; `wall` yields like the lightest container.
+pub(super) fn contacts_bear<L: ContactLaw>(
+    law: &L,
+    coefficients: &Coefficients<L::Coefficients>,
+    wall: Body,
+    particles: &Particles,
+) -> Result<Limit, LawError> {
+    let (limit, kinds) = coefficients.time_step_limit(law, wall)?;
+    let example = |kind: u32| {
+        let mut indices = particles.species.iter().zip(&particles.id);
+        indices.find_map(|(species, number)| (*species == kind).then_some(*number as usize))
+    };
+    let bound = kinds.and_then(|(kind, other)| {
+        let particle = example(kind)?;
+        Some(match other {
+            // A kind may stand for a single particle.
+            Some(other) => StepBound::Pair {
+                first: particle,
+                second: example(other)?,
+            },
+            None => StepBound::Wall { particle },
+        })
+    });
+    Ok((limit, bound))
+}
 
-    fn excitation_bears(&self) -> Result<Limit, BuildError> {
-        let duration = self.mount.shortest_feature();
-        if duration < f64::INFINITY || duration.is_nan() {
-            Bound::Positive.check("shortest feature of the excitation (s)", duration)?;
-        }
-        Ok((
-            duration / PER_FEATURE,
-            Some(StepBound::Feature { duration }),
-        ))
+fn mount_bears(mount: &dyn Mount) -> Result<Limit, BuildError> {
+    let quantity = "highest natural frequency of the mount (Hz)";
+    let frequency = Bound::NonNegative.check(quantity, mount.highest_frequency())?;
+    let bound = StepBound::NaturalFrequency { frequency };
+    Ok((1.0 / (PER_PERIOD * frequency), Some(bound)))
+}
+
+fn excitation_bears(mount: &dyn Mount) -> Result<Limit, BuildError> {
+    let duration = mount.shortest_feature();
+    if duration < f64::INFINITY || duration.is_nan() {
+        Bound::Positive.check("shortest feature of the excitation (s)", duration)?;
     }
+    let bound = StepBound::Feature { duration };
+    Ok((duration / PER_FEATURE, Some(bound)))
 }
 
 fn shorter(first: Limit, second: Limit) -> Limit {

@@ -53,13 +53,13 @@ impl<L: ForceLaw> BlockForces<L> {
     /// Evaluates all contacts of a block, and turns forces and torques on its own particles, for which
     /// there is room in `sums`, into accelerations; halo forces of other blocks are not among them. Returns
     /// whether all are finite. With `END`, contacts advance their memory to step `view.stamp + 1`.
-    pub(super) fn evaluate<C: Cavity, O: Observer, const END: bool>(
+    pub(super) fn evaluate<C: Cavity, const END: bool>(
         &mut self,
         block: &mut Block<L>,
         view: &StateView<'_, C, L>,
         gravity: DVec3,
         sums: (&mut [f64], &mut [f64]),
-        observer: &mut O,
+        observer: &mut dyn Observer,
     ) -> bool {
         let (force, torque) = sums;
         force.fill(0.0);
@@ -71,38 +71,38 @@ impl<L: ForceLaw> BlockForces<L> {
         block.contacts = block.contact_count();
         if view.planar {
             let sums = Sums::<Plane>::new(force, torque, block.indices.start);
-            self.evaluate_lists::<C, O, Plane, END>(block, view, gravity, sums, observer)
+            self.evaluate_lists::<C, Plane, END>(block, view, gravity, sums, observer)
         } else {
             let sums = Sums::<Volume>::new(force, torque, block.indices.start);
-            self.evaluate_lists::<C, O, Volume, END>(block, view, gravity, sums, observer)
+            self.evaluate_lists::<C, Volume, END>(block, view, gravity, sums, observer)
         }
     }
 
-    fn evaluate_lists<C: Cavity, O: Observer, S: Space, const END: bool>(
+    fn evaluate_lists<C: Cavity, S: Space, const END: bool>(
         &mut self,
         block: &mut Block<L>,
         view: &StateView<'_, C, L>,
         gravity: DVec3,
         mut sums: Sums<'_, S>,
-        observer: &mut O,
+        observer: &mut dyn Observer,
     ) -> bool {
         self.batch.begin_pairs(view.coefficients.only_radius());
         let deepest = [
-            self.add_pairs::<C, O, S, END>(block, view, &mut sums, observer),
-            self.add_halo::<C, O, S, END>(block, view, &mut sums, observer),
-            self.add_walls::<C, O, S, END>(block, view, &mut sums, observer),
+            self.add_pairs::<C, S, END>(block, view, &mut sums, observer),
+            self.add_halo::<C, S, END>(block, view, &mut sums, observer),
+            self.add_walls::<C, S, END>(block, view, &mut sums, observer),
         ];
         block.largest_overlap = deepest.into_iter().fold(0.0, f64::max);
         sums.accelerate(view, block.indices.clone(), gravity)
     }
 
     /// Adds the forces of the pairs within the block. Returns the largest overlap in m.
-    fn add_pairs<C: Cavity, O: Observer, S: Space, const END: bool>(
+    fn add_pairs<C: Cavity, S: Space, const END: bool>(
         &mut self,
         block: &mut Block<L>,
         view: &StateView<'_, C, L>,
         sums: &mut Sums<'_, S>,
-        observer: &mut O,
+        observer: &mut dyn Observer,
     ) -> f64 {
         let (list, batch) = (&mut block.pairs, &mut *self.batch);
         let mut deepest = 0.0_f64;
@@ -124,12 +124,12 @@ impl<L: ForceLaw> BlockForces<L> {
 
     /// Adds the forces of pairs with particles of later blocks, as far as they act on this one, and keeps
     /// the rest as halo forces. Returns the largest overlap in m.
-    fn add_halo<C: Cavity, O: Observer, S: Space, const END: bool>(
+    fn add_halo<C: Cavity, S: Space, const END: bool>(
         &mut self,
         block: &mut Block<L>,
         view: &StateView<'_, C, L>,
         sums: &mut Sums<'_, S>,
-        observer: &mut O,
+        observer: &mut dyn Observer,
     ) -> f64 {
         let (list, batch) = (&mut block.halo, &mut *self.batch);
         let mut deepest = 0.0_f64;
@@ -159,12 +159,12 @@ impl<L: ForceLaw> BlockForces<L> {
     }
 
     /// Adds the forces of the walls, and the loads on them. Returns the largest overlap in m.
-    fn add_walls<C: Cavity, O: Observer, S: Space, const END: bool>(
+    fn add_walls<C: Cavity, S: Space, const END: bool>(
         &mut self,
         block: &mut Block<L>,
         view: &StateView<'_, C, L>,
         sums: &mut Sums<'_, S>,
-        observer: &mut O,
+        observer: &mut dyn Observer,
     ) -> f64 {
         let (list, batch) = (&mut block.walls, &mut *self.batch);
         let mut deepest = 0.0_f64;

@@ -17,7 +17,7 @@ pub(super) fn report_pairs<C: Cavity, L: ForceLaw>(
     list: &NeighbourList<L>,
     batch: &Batch<L>,
     run: Range<usize>,
-    observer: &mut impl Observer,
+    observer: &mut dyn Observer,
 ) {
     for (n, number) in run.enumerate() {
         let bodies = list.contacts.bodies()[number];
@@ -51,7 +51,7 @@ pub(super) fn report_walls<C: Cavity, L: ForceLaw>(
     list: &NeighbourList<L>,
     batch: &Batch<L>,
     run: Range<usize>,
-    observer: &mut impl Observer,
+    observer: &mut dyn Observer,
 ) {
     for (n, [index, wall]) in list.contacts.bodies()[run].iter().enumerate() {
         let (index, wall) = (*index as usize, *wall);

@@ -2,12 +2,10 @@
 //! next step starts from.
 
 use super::{ImpulseSolver, SolverStep};
-use crate::cavity::Cavity;
 use crate::contact::{ContactForce, HeldForce, WallLoad};
 use crate::damper::neighbours::{Block, NeighbourList};
 use crate::damper::state::{Space, State};
 use crate::law::ImpulseLaw;
-use crate::mount::Mount;
 use crate::numbers::at_most;
 use crate::step_error::StepError;
 
@@ -25,10 +23,10 @@ impl<S: Space> ImpulseSolver<S> {
 impl<S: Space> ImpulseSolver<S> {
     /// Turns impulses into accelerations of the particles and loads on the walls, and keeps the forces of
     /// the contacts.
-    pub(super) fn apply<C: Cavity, L: ImpulseLaw, M: Mount + ?Sized>(
+    pub(super) fn apply<L: ImpulseLaw>(
         &mut self,
         step: &SolverStep,
-        state: &mut State<C, L, M>,
+        state: &mut State,
         blocks: &mut [Block<L>],
     ) -> Result<(), StepError> {
         let [slope, curvature] = self.accelerate(step, state);
@@ -43,18 +41,13 @@ impl<S: Space> ImpulseSolver<S> {
         self.store_forces(step, state.stamp, blocks);
         // Back from the prediction: the mount is where the step begins.
         let starts = &self.containers.starts;
-        for (compartment, start) in state.model.compartments.iter_mut().zip(starts) {
+        for (compartment, start) in state.compartments.iter_mut().zip(starts) {
             compartment.place(*start);
         }
-        state.accelerate_mount(state.time);
         Ok(())
     }
 
-    fn load_walls<C: Cavity, L: ImpulseLaw, M: Mount + ?Sized>(
-        &self,
-        step: &SolverStep,
-        state: &mut State<C, L, M>,
-    ) {
+    fn load_walls(&self, step: &SolverStep, state: &mut State) {
         state.wall_loads.fill(WallLoad::default());
         for number in self.pairs..self.constraints.len() {
             let constraint = &self.constraints[number];

@@ -4,7 +4,6 @@ use glam::{DMat3, DVec3};
 
 use super::turning::TurningContainer;
 use crate::damper::state::{Compartment, Space, State};
-use crate::law::ContactLaw;
 use crate::mount::{Load, Mobility, Motion, Mount};
 
 /// The container of a cavity.
@@ -90,23 +89,19 @@ impl<S: Space> Containers<S> {
 
 impl<S: Space> Containers<S> {
     /// The containers' free velocities over a step of `time_step` (s), and how they yield.
-    pub(super) fn set_free<C, L: ContactLaw, M: Mount + ?Sized>(
-        &mut self,
-        state: &State<C, L, M>,
-        time_step: f64,
-    ) {
+    pub(super) fn set_free(&mut self, state: &State, mount: &dyn Mount, time_step: f64) {
         self.loads.clear();
-        let cavities = state.model.compartments.len();
+        let cavities = state.compartments.len();
         self.loads.resize(cavities, Load::default());
-        self.go_halfway(state, time_step);
-        self.set_rates(state, time_step);
+        self.go_halfway(state, mount, time_step);
+        self.set_rates(state, mount, time_step);
         self.set_coordinates(state, time_step);
         self.each.clear();
         self.turning.clear();
         self.starts.clear();
         let mut turns = false;
-        for (cavity, compartment) in state.model.compartments.iter().enumerate() {
-            let motion = self.at_end(state, time_step, cavity);
+        for (cavity, compartment) in state.compartments.iter().enumerate() {
+            let motion = self.at_end(state, mount, time_step, cavity);
             let start = compartment.motion;
             let fall = state.gravity * time_step;
             self.each.push(Container::new(&start, &motion, fall));
@@ -117,20 +112,15 @@ impl<S: Space> Containers<S> {
         if !turns {
             self.turning.clear();
         }
-        self.set_responses(state, time_step, turns);
+        self.set_responses(state, mount, time_step, turns);
     }
 
     /// The mount in the middle of the step, without loads.
-    fn go_halfway<C, L: ContactLaw, M: Mount + ?Sized>(
-        &mut self,
-        state: &State<C, L, M>,
-        time_step: f64,
-    ) {
-        let (position, velocity) = own(state);
+    fn go_halfway(&mut self, state: &State, mount: &dyn Mount, time_step: f64) {
+        let [position, velocity] = state.mount_state();
         self.accelerations.clear();
         self.accelerations.resize(velocity.len(), 0.0);
         let rates = &mut self.accelerations;
-        let mount = &state.mount;
         mount.accelerate(state.time, position, velocity, &self.loads, rates);
         let [middle, before] = &mut self.middle;
         advance(position, velocity, 0.5 * time_step, middle);
@@ -140,58 +130,39 @@ impl<S: Space> Containers<S> {
     /// The mount's rates at the end of the step under the loads, of second order: with the accelerations at its
     /// middle.
     #[inline]
-    fn set_rates<C, L: ContactLaw, M: Mount + ?Sized>(
-        &mut self,
-        state: &State<C, L, M>,
-        time_step: f64,
-    ) {
+    fn set_rates(&mut self, state: &State, mount: &dyn Mount, time_step: f64) {
         let [middle, before] = &self.middle;
         let time = state.time + 0.5 * time_step;
         let accelerations = &mut self.accelerations;
-        let mount = &state.mount;
         mount.accelerate(time, middle, before, &self.loads, accelerations);
-        let (_, velocity) = own(state);
+        let [_, velocity] = state.mount_state();
         advance(velocity, accelerations, time_step, &mut self.end[1]);
     }
 
     /// The mount's coordinates at the end of the step: how a container stands counts where it turns alone.
-    fn set_coordinates<C, L: ContactLaw, M: Mount + ?Sized>(
-        &mut self,
-        state: &State<C, L, M>,
-        time_step: f64,
-    ) {
+    fn set_coordinates(&mut self, state: &State, time_step: f64) {
         let [coordinates, rates] = &mut self.end;
-        let turned = |compartment: &Compartment<C>| compartment.turned;
-        if state.model.compartments.iter().any(turned) {
+        let turned = |compartment: &Compartment| compartment.turned;
+        if state.compartments.iter().any(turned) {
             advance(&self.middle[0], rates, 0.5 * time_step, coordinates);
         } else {
             coordinates.clear();
-            coordinates.extend_from_slice(own(state).0);
+            coordinates.extend_from_slice(state.mount_state()[0]);
         }
     }
 
     /// How the container of a cavity moves at the end of the step.
-    fn at_end<C, L: ContactLaw, M: Mount + ?Sized>(
-        &self,
-        state: &State<C, L, M>,
-        time_step: f64,
-        cavity: usize,
-    ) -> Motion {
+    fn at_end(&self, state: &State, mount: &dyn Mount, time_step: f64, cavity: usize) -> Motion {
         let [coordinates, rates] = &self.end;
         let end = state.time + time_step;
-        state.mount.motion(end, coordinates, rates, cavity)
+        mount.motion(end, coordinates, rates, cavity)
     }
 
     /// What unit impulses on each container do to all of them.
-    fn set_responses<C, L: ContactLaw, M: Mount + ?Sized>(
-        &mut self,
-        state: &State<C, L, M>,
-        time_step: f64,
-        turns: bool,
-    ) {
+    fn set_responses(&mut self, state: &State, mount: &dyn Mount, time_step: f64, turns: bool) {
         self.responses.clear();
         self.mobilities.clear();
-        if state.mount.degrees() == 0 {
+        if state.degrees == 0 {
             return;
         }
         let cavities = self.each.len();
@@ -205,10 +176,10 @@ impl<S: Space> Containers<S> {
         for struck in 0..cavities {
             for axis in 0..axes {
                 self.loads[struck] = Load::unit(axis);
-                self.set_rates(state, time_step);
+                self.set_rates(state, mount, time_step);
                 self.loads[struck] = Load::default();
                 for cavity in 0..cavities {
-                    let motion = self.at_end(state, time_step, cavity);
+                    let motion = self.at_end(state, mount, time_step, cavity);
                     let gained = motion.velocity - S::in_space(self.each[cavity].free);
                     let place = struck * cavities + cavity;
                     if axis < S::WIDTH {
@@ -223,14 +194,6 @@ impl<S: Space> Containers<S> {
             }
         }
     }
-}
-
-/// The mount's own coordinates and rates.
-#[inline]
-fn own<C, L: ContactLaw, M: Mount + ?Sized>(state: &State<C, L, M>) -> (&[f64], &[f64]) {
-    let degrees = state.mount.degrees();
-    let coordinates = &state.mount_coordinates;
-    (coordinates.own(degrees), coordinates.own_rates(degrees))
 }
 
 /// Goes on `from` numbers for `time` at the rates `by`.

@@ -4,27 +4,20 @@
 use super::constraint::{ContactConstraint, TURNING};
 use super::prepare::ConstraintInfo;
 use super::{ImpulseSolver, SolverStep};
-use crate::cavity::Cavity;
 use crate::damper::state::{Space, State};
-use crate::law::ContactLaw;
-use crate::mount::Mount;
 use crate::numbers::{at_least, at_most};
 
 impl<S: Space> ImpulseSolver<S> {
     /// Sets the accelerations that lead to the velocities after the impulses. Returns how the kinetic energy
     /// (J) that impulses add, relative to the containers as they move freely, grows with a part of them: in
     /// proportion, and with the square.
-    pub(super) fn accelerate<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
-        &self,
-        step: &SolverStep,
-        state: &mut State<C, L, M>,
-    ) -> [f64; 2] {
+    pub(super) fn accelerate(&self, step: &SolverStep, state: &mut State) -> [f64; 2] {
         let rate = 1.0 / step.time_step;
         let gravity = S::vector(state.gravity);
         let free_gain = S::vector(state.gravity * step.time_step);
         let (mut slope, mut curvature) = (0.0, 0.0);
         let particles = &mut state.particles;
-        for (compartment, container) in state.model.compartments.iter().zip(&self.containers.each) {
+        for (compartment, container) in state.compartments.iter().zip(&self.containers.each) {
             let indices = compartment.indices.clone();
             let velocity = &S::rows(particles.velocity.flat())[indices.clone()];
             let spin = &S::spin_rows(particles.spin.flat())[indices.clone()];
@@ -67,12 +60,7 @@ impl<S: Space> ImpulseSolver<S> {
     /// Makes all impulses of the step smaller by one factor, so that they add no more kinetic energy than
     /// position correction needs; `growth` is as [`accelerate`](Self::accelerate) returned it.
     #[cold]
-    pub(super) fn bound_energy<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
-        &mut self,
-        step: &SolverStep,
-        state: &mut State<C, L, M>,
-        growth: [f64; 2],
-    ) {
+    pub(super) fn bound_energy(&mut self, step: &SolverStep, state: &mut State, growth: [f64; 2]) {
         let [slope, curvature] = growth;
         let all = self.constraints.iter().zip(&self.infos);
         let allowed: f64 = all.map(|(own, info)| correction_work(own, info)).sum();

@@ -1,9 +1,7 @@
 //! Where contacts are looked for, and the velocities that the step leaves without them.
 
 use super::{ImpulseSolver, SolverBody, SolverStep};
-use crate::cavity::Cavity;
 use crate::damper::state::{Space, State};
-use crate::law::ContactLaw;
 use crate::mount::Mount;
 use crate::numbers::at_least;
 use crate::step_error::StepError;
@@ -14,15 +12,16 @@ impl<S: Space> ImpulseSolver<S> {
     ///
     /// Refuses particles that could pass others, or a wall, unseen: two bodies that come closer by less than
     /// the sum of their radii in a step do not miss each other, whatever their restitution.
-    pub(super) fn predict<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
+    pub(super) fn predict(
         &mut self,
         step: &SolverStep,
-        state: &mut State<C, L, M>,
+        state: &mut State,
+        mount: &dyn Mount,
     ) -> Result<(), StepError> {
-        self.containers.set_free(state, step.time_step);
+        self.containers.set_free(state, mount, step.time_step);
         let mut fastest = 0.0;
         self.bodies.clear();
-        for cavity in 0..state.model.compartments.len() {
+        for cavity in 0..state.compartments.len() {
             let (relative, fast) = self.predict_cavity(step, state, cavity);
             if let (true, Some(index)) = (state.contained, fast) {
                 return Err(too_fast(state, index, step.time_step));
@@ -30,11 +29,7 @@ impl<S: Space> ImpulseSolver<S> {
             fastest = at_least(relative, fastest);
         }
         let ahead = step.parameters.prediction * step.time_step;
-        for (compartment, container) in state
-            .model
-            .compartments
-            .iter_mut()
-            .zip(&mut self.containers.each)
+        for (compartment, container) in state.compartments.iter_mut().zip(&mut self.containers.each)
         {
             compartment.advance(ahead);
             compartment.torque_origin = compartment.motion.position;
@@ -54,13 +49,8 @@ impl<S: Space> ImpulseSolver<S> {
 
     /// The speed (m/s) that a free particle of up to `fastest` (m/s) gains on any wall over the step because
     /// containers turn, from above.
-    fn swept_gain<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
-        &self,
-        step: &SolverStep,
-        state: &State<C, L, M>,
-        fastest: f64,
-    ) -> f64 {
-        let compartments = state.model.compartments.iter();
+    fn swept_gain(&self, step: &SolverStep, state: &State, fastest: f64) -> f64 {
+        let compartments = state.compartments.iter();
         let gains = compartments.zip(&self.containers.turning);
         gains.fold(0.0, |most, (compartment, turning)| {
             let free = S::spin_in_space(turning.free);
@@ -72,13 +62,13 @@ impl<S: Space> ImpulseSolver<S> {
 
     /// The same for the particles of a cavity. Returns the greatest speed (m/s) relative to the container,
     /// and a particle that moves by more than its radius in the step.
-    fn predict_cavity<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
+    fn predict_cavity(
         &mut self,
         step: &SolverStep,
-        state: &State<C, L, M>,
+        state: &State,
         cavity: usize,
     ) -> (f64, Option<usize>) {
-        let compartment = &state.model.compartments[cavity];
+        let compartment = &state.compartments[cavity];
         let indices = compartment.indices.clone();
         let particles = &state.particles;
         let position = &S::rows(particles.position.flat())[indices.clone()];
@@ -125,12 +115,8 @@ impl<S: Space> ImpulseSolver<S> {
 
 /// The greatest speed (m/s) relative to a container that is turned, and a particle that moves by more than its
 /// radius in the step.
-fn fastest_on_turning<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
-    state: &State<C, L, M>,
-    cavity: usize,
-    time_step: f64,
-) -> (f64, Option<usize>) {
-    let compartment = &state.model.compartments[cavity];
+fn fastest_on_turning(state: &State, cavity: usize, time_step: f64) -> (f64, Option<usize>) {
+    let compartment = &state.compartments[cavity];
     let particles = &state.particles;
     let (mut fastest, mut too_fast) = (0.0, None);
     for index in compartment.indices.clone() {
@@ -145,12 +131,8 @@ fn fastest_on_turning<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
     (fastest, too_fast)
 }
 
-fn too_fast<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
-    state: &State<C, L, M>,
-    index: usize,
-    time_step: f64,
-) -> StepError {
-    let compartment = &state.model.compartments[state.model.cavity_of(index)];
+fn too_fast(state: &State, index: usize, time_step: f64) -> StepError {
+    let compartment = &state.compartments[state.cavity_of(index)];
     let position = || state.particles.position.get(index);
     let relative = compartment.relative(position, state.particles.velocity.get(index));
     StepError::TooFast {

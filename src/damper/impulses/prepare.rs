@@ -9,9 +9,8 @@ use super::{ImpulseSolver, SolverStep};
 use crate::cavity::Cavity;
 use crate::contact::{HeldForce, Partner};
 use crate::damper::neighbours::{Block, ContactId, NeighbourList};
-use crate::damper::state::{Space, State, StateView};
+use crate::damper::state::{Space, StateView};
 use crate::law::ImpulseLaw;
-use crate::mount::Mount;
 use crate::numbers::{at_least, at_most};
 
 /// What is to be known of a constraint besides what sweeps need.
@@ -165,19 +164,18 @@ impl SolverStep {
 
 impl<S: Space> ImpulseSolver<S> {
     /// Prepares a constraint for each active contact, in the order of pairs and then of walls.
-    pub(super) fn prepare<C: Cavity, L: ImpulseLaw, M: Mount + ?Sized>(
+    pub(super) fn prepare<C: Cavity, L: ImpulseLaw>(
         &mut self,
         step: &SolverStep,
-        state: &State<C, L, M>,
+        view: &StateView<'_, C, L>,
         blocks: &mut [Block<L>],
     ) {
-        let view = state.view(0.0);
         self.clear();
         for block in &mut *blocks {
             block.clear_results();
             let before = self.constraints.len();
             for list in [&block.pairs, &block.halo] {
-                let deepest = self.add_pairs(step, &view, list);
+                let deepest = self.add_pairs(step, view, list);
                 block.largest_overlap = at_least(deepest, block.largest_overlap);
             }
             block.contacts += self.constraints.len() - before;
@@ -185,7 +183,7 @@ impl<S: Space> ImpulseSolver<S> {
         self.pairs = self.constraints.len();
         for block in &mut *blocks {
             let before = self.constraints.len();
-            self.add_walls(step, &view, block);
+            self.add_walls(step, view, block);
             block.contacts += self.constraints.len() - before;
         }
         if !self.rolling.is_empty() {

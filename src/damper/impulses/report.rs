@@ -3,11 +3,8 @@
 use glam::DVec3;
 
 use super::{ImpulseSolver, SolverStep};
-use crate::cavity::Cavity;
 use crate::contact::{Contact, Partner, Stored};
 use crate::damper::state::{Space, State, Volume, surface_velocity};
-use crate::law::ContactLaw;
-use crate::mount::Mount;
 use crate::observer::{ContactEvent, Observer};
 
 /// How a body moves at the beginning and at the end of the step: velocity and spin.
@@ -15,12 +12,7 @@ type Motions = [(DVec3, DVec3); 2];
 
 impl<S: Space> ImpulseSolver<S> {
     /// Tells `observer` of every contact that was given an impulse.
-    pub(super) fn report<C: Cavity, L: ContactLaw, M: Mount + ?Sized, O: Observer>(
-        &self,
-        step: &SolverStep,
-        state: &State<C, L, M>,
-        observer: &mut O,
-    ) {
+    pub(super) fn report(&self, step: &SolverStep, state: &State, observer: &mut dyn Observer) {
         for number in 0..self.constraints.len() {
             if self.constraints[number].impulse > 0.0 {
                 observer.contact(&self.event(step, state, number));
@@ -28,12 +20,7 @@ impl<S: Space> ImpulseSolver<S> {
         }
     }
 
-    fn event<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
-        &self,
-        step: &SolverStep,
-        state: &State<C, L, M>,
-        number: usize,
-    ) -> ContactEvent {
+    fn event(&self, step: &SolverStep, state: &State, number: usize) -> ContactEvent {
         let particles = &state.particles;
         let constraint = &self.constraints[number];
         let [index, other] = constraint.bodies.map(|body| body as usize);
@@ -45,13 +32,13 @@ impl<S: Space> ImpulseSolver<S> {
         };
         let (cavity, partner, radii, others);
         if number < self.pairs {
-            cavity = state.model.cavity_of(index);
+            cavity = state.cavity_of(index);
             partner = Partner::Particle(particles.id[other] as usize);
             radii = [particles.radius[index], particles.radius[other]];
             others = motions(other);
         } else {
             cavity = other;
-            let compartment = &state.model.compartments[cavity];
+            let compartment = &state.compartments[cavity];
             partner = Partner::Wall(self.infos[number].wall - compartment.first_wall);
             radii = [particles.radius[index], 0.0];
             let after = S::in_space(self.containers.each[cavity].velocity);

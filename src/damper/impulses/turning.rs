@@ -170,7 +170,7 @@ impl<S: Space> ImpulseSolver<S> {
 }
 
 /// What a contact at a wall bore, turned with the container by as much as it turns in `time` (s).
-pub(super) fn carried<C>(held: &HeldForce, compartment: &Compartment<C>, time: f64) -> HeldForce {
+pub(super) fn carried(held: &HeldForce, compartment: &Compartment, time: f64) -> HeldForce {
     let turn = exp(compartment.motion.angular_velocity * time);
     let mut held = *held;
     held.force.tangential = turn * held.force.tangential;

@@ -225,8 +225,8 @@ fn find_pairs<C, L: ContactLaw, S: Space>(
 }
 
 /// Whether all of `count` points are near to where they were, seen from a container that is turned.
-fn all_within_turned<C>(
-    compartment: &Compartment<C>,
+fn all_within_turned(
+    compartment: &Compartment,
     count: usize,
     [now, then]: [Rows<'_>; 2],
     limit: f64,

@@ -8,18 +8,29 @@ use super::block::{Block, ContactHistory, Listing};
 use super::columns::make_room;
 use super::history::ContactRecord;
 use crate::cavity::Cavity;
-use crate::damper::state::{Compartment, Particles, State};
+use crate::damper::state::{Compartment, Model, Particles, State, StateView};
 use crate::detector::{Bed, Detector, DetectorError};
 use crate::law::ContactLaw;
-use crate::mount::Mount;
 use crate::parallel::for_each;
 use crate::step_error::StepError;
+
+/// The detectors of a damper, one for each cavity, whatever their type.
+pub(crate) trait Detectors {
+    /// That of a cavity.
+    fn of(&mut self, cavity: usize) -> &mut dyn Detector;
+}
+
+impl<D: Detector> Detectors for Vec<D> {
+    fn of(&mut self, cavity: usize) -> &mut dyn Detector {
+        &mut self[cavity]
+    }
+}
 
 /// The bed of a compartment as its detector sees it, for bodies with a gap of up to `prediction_distance`
 /// (m). Its positions, seen from the container, go to the end of `local`, which holds those of the
 /// compartments before.
-fn bed<'a, C: Cavity>(
-    compartment: &Compartment<C>,
+fn bed<'a>(
+    compartment: &Compartment,
     particles: &'a Particles,
     prediction_distance: f64,
     local: &'a mut Vec<DVec3>,
@@ -30,37 +41,37 @@ fn bed<'a, C: Cavity>(
     Bed::new(
         &local[indices.clone()],
         &particles.radius[indices],
-        compartment.cavity.bounds(),
+        compartment.bounds,
     )
-    .in_plane(compartment.cavity.is_planar())
+    .in_plane(compartment.planar)
     .with_margin(compartment.margin + prediction_distance)
 }
 
-impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
+impl<L: ContactLaw> Neighbours<L> {
     /// Lists the pairs and walls that touch now. With `afresh`, candidates without a skin are listed
     /// anew first; candidates that can no longer be trusted always are.
-    pub(crate) fn find_contacts<C: Cavity, M: Mount + ?Sized>(
+    pub(crate) fn find_contacts<C: Cavity>(
         &mut self,
-        state: &State<C, L, M>,
+        model: &Model<C, L>,
+        state: &State,
+        detectors: &mut dyn Detectors,
         afresh: bool,
     ) -> Result<(), StepError> {
-        let skinless = afresh
-            && self
-                .detectors
-                .iter()
-                .any(|detector| detector.skin(1.0) == 0.0);
-        if skinless || !self.listed || !self.narrow(state) {
-            self.list(state, None)?;
-            self.narrow(state);
+        let mut cavities = 0..state.compartments.len();
+        let skinless = afresh && cavities.any(|cavity| detectors.of(cavity).skin(1.0) == 0.0);
+        if skinless || !self.listed || !self.narrow(model, state) {
+            self.list(model, state, detectors, None)?;
+            self.narrow(model, state);
         }
         Ok(())
     }
 
     /// Has bodies with a gap below `prediction_distance` (m) count as in contact. Candidates are listed up
     /// to more, so that they need not be listed anew for every new speed of the bed.
-    pub(crate) fn set_prediction_distance<C: Cavity, M: Mount + ?Sized>(
+    pub(crate) fn set_prediction_distance(
         &mut self,
-        state: &State<C, L, M>,
+        state: &State,
+        detectors: &mut dyn Detectors,
         prediction_distance: f64,
     ) -> Result<(), StepError> {
         self.prediction_distance = prediction_distance;
@@ -69,30 +80,27 @@ impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
         }
         self.listed_distance = 2.0 * prediction_distance;
         self.listed = false;
-        Ok(self.prepare_detectors(state)?)
+        Ok(self.prepare_detectors(state, detectors)?)
     }
 
     /// Makes the detectors ready for the bed as it stands.
-    pub(crate) fn prepare_detectors<C: Cavity, M: Mount + ?Sized>(
+    pub(crate) fn prepare_detectors(
         &mut self,
-        state: &State<C, L, M>,
+        state: &State,
+        detectors: &mut dyn Detectors,
     ) -> Result<(), DetectorError> {
         let local = &mut self.local;
         local.clear();
-        for (compartment, detector) in state.model.compartments.iter().zip(&mut self.detectors) {
-            detector.prepare(&bed(
-                compartment,
-                &state.particles,
-                self.listed_distance,
-                local,
-            ))?;
+        for (cavity, compartment) in state.compartments.iter().enumerate() {
+            let bed = bed(compartment, &state.particles, self.listed_distance, local);
+            detectors.of(cavity).prepare(&bed)?;
         }
         Ok(())
     }
 
     /// Narrow phase. Returns whether the candidates could be trusted.
-    fn narrow<C: Cavity, M: Mount + ?Sized>(&mut self, state: &State<C, L, M>) -> bool {
-        let view = state.view(0.0);
+    fn narrow<C: Cavity>(&mut self, model: &Model<C, L>, state: &State) -> bool {
+        let view = state.view(model, 0.0);
         let reference = self.reference.rows();
         let distance = self.prediction_distance;
         all_blocks(&mut self.blocks, &|block| {
@@ -102,17 +110,19 @@ impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
 
     /// Broad phase: lists candidates anew. Contacts remember what they did, or what is `saved` by
     /// [`history`](Self::history).
-    pub(crate) fn list<C: Cavity, M: Mount + ?Sized>(
+    pub(crate) fn list<C: Cavity>(
         &mut self,
-        state: &State<C, L, M>,
+        model: &Model<C, L>,
+        state: &State,
+        detectors: &mut dyn Detectors,
         saved: Option<&ContactHistory<L>>,
     ) -> Result<(), StepError> {
         self.listed = false;
         self.detections += 1;
         state.check_finite()?;
-        self.detect(state)?;
-        self.list_candidates(state, saved);
-        let view = state.view(0.0);
+        self.detect(state, detectors)?;
+        let view = state.view(model, 0.0);
+        self.list_candidates(&view, saved);
         for block in &mut self.blocks {
             block.prepare(&view)?;
         }
@@ -121,21 +131,18 @@ impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
     }
 
     /// Asks the detectors, and sorts their proposals into rows by the lower index.
-    fn detect<C: Cavity, M: Mount + ?Sized>(
-        &mut self,
-        state: &State<C, L, M>,
-    ) -> Result<(), StepError> {
+    fn detect(&mut self, state: &State, detectors: &mut dyn Detectors) -> Result<(), StepError> {
         let count = state.particles.len();
         self.rows.clear();
         self.rows.resize(count + 1, 0);
         self.partners.clear();
         self.local.clear();
-        for (compartment, detector) in state.model.compartments.iter().zip(&mut self.detectors) {
+        for (cavity, compartment) in state.compartments.iter().enumerate() {
             let indices = compartment.indices.clone();
             let local = &mut self.local;
             let bed = bed(compartment, &state.particles, self.listed_distance, local);
             self.proposals.clear();
-            detector.detect(&bed, &mut self.proposals);
+            detectors.of(cavity).detect(&bed, &mut self.proposals);
             let proposals = self.proposals.as_slice();
             let rows = &mut self.rows[indices.start..];
             for &[first, second] in proposals {
@@ -170,13 +177,13 @@ impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
     }
 
     /// Fills the blocks' lists from the sorted proposals, and with the walls that are near.
-    fn list_candidates<C: Cavity, M: Mount + ?Sized>(
+    fn list_candidates<C: Cavity>(
         &mut self,
-        state: &State<C, L, M>,
+        view: &StateView<'_, C, L>,
         saved: Option<&ContactHistory<L>>,
     ) {
         let listing = Listing {
-            view: &state.view(0.0),
+            view,
             rows: &self.rows,
             local: &self.local,
             listed_distance: self.listed_distance,

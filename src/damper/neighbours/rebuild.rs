@@ -92,14 +92,14 @@ impl<L: ContactLaw> Block<L> {
                 }
             }
         }
-        for compartment in view.compartments {
+        for (compartment, cavity) in view.compartments.iter().zip(view.cavities) {
             // A wall does not come to meet a particle.
             let margin = 0.5 * compartment.margin;
             for index in compartment.indices_in(&self.indices) {
                 let touching = view.radius[index];
                 let near = touching + listed_distance + margin;
-                for wall in 0..compartment.cavity.walls() {
-                    if compartment.cavity.reaches(wall, local[index], near) {
+                for wall in 0..compartment.walls {
+                    if cavity.reaches(wall, local[index], near) {
                         self.walls
                             .push(index as u32, compartment.first_wall + wall, touching);
                     }

@@ -8,23 +8,24 @@ use glam::DVec3;
 
 use super::Neighbours;
 use super::block::BLOCK;
+use super::detection::Detectors;
 use super::history::ContactRecord;
 use crate::cavity::Cavity;
-use crate::damper::state::{Particles, State};
-use crate::detector::Detector;
+use crate::damper::state::{Model, Particles, State};
 use crate::law::ContactLaw;
-use crate::mount::Mount;
 use crate::step_error::StepError;
 
 /// Steps between two sorts: a particle that moves by a tenth of its radius per step crosses the bed's
 /// neighbourhoods in some hundred steps, and a sort costs as much as a few steps.
 const INTERVAL: u32 = 1000;
 
-impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
+impl<L: ContactLaw> Neighbours<L> {
     /// Sorts a large bed if it is time to.
-    pub(crate) fn sort_in_time<C: Cavity, M: Mount + ?Sized>(
+    pub(crate) fn sort_in_time<C: Cavity>(
         &mut self,
-        state: &mut State<C, L, M>,
+        model: &Model<C, L>,
+        state: &mut State,
+        detectors: &mut dyn Detectors,
     ) -> Result<(), StepError> {
         if state.particles.len() <= BLOCK {
             return Ok(());
@@ -45,11 +46,11 @@ impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
         let [pairs, walls] = &mut memory;
         pairs.sort_unstable_by_key(ContactRecord::pair);
         walls.sort_unstable_by_key(ContactRecord::wall);
-        self.list(state, Some(&memory))
+        self.list(model, state, detectors, Some(&memory))
     }
 
     /// Sorts a large bed. Candidates have to be listed anew.
-    pub(crate) fn sort<C: Cavity, M: Mount + ?Sized>(&mut self, state: &mut State<C, L, M>) {
+    pub(crate) fn sort(&mut self, state: &mut State) {
         self.since_sort = 0;
         let particles = &state.particles;
         if particles.len() <= BLOCK {
@@ -58,8 +59,8 @@ impl<L: ContactLaw, D: Detector> Neighbours<L, D> {
         let largest = particles.radius.iter().copied().fold(0.0, f64::max);
         let density = 0.5 / largest;
         let mut order: Vec<(u64, u32)> = Vec::with_capacity(particles.len());
-        for compartment in &state.model.compartments {
-            let [lower, _] = compartment.cavity.bounds();
+        for compartment in &state.compartments {
+            let [lower, _] = compartment.bounds;
             let shifted = lower + compartment.motion.position;
             let start = order.len();
             order.extend(compartment.indices.clone().map(|index| {

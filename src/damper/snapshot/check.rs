@@ -10,9 +10,9 @@ use crate::mount::{Load, Motion};
 
 impl<Memory> Snapshot<Memory> {
     /// Refuses another layout, what does not fit into `engine`, and what cannot be.
-    pub(super) fn check<C, L, M, D>(
+    pub(super) fn check<C, L>(
         &self,
-        engine: &Engine<C, L, M, D>,
+        engine: &Engine<C, L>,
         setup: &Setup,
     ) -> Result<(), RestoreError>
     where
@@ -25,7 +25,7 @@ impl<Memory> Snapshot<Memory> {
         own.check_containers(&engine.state)?;
         own.check_numbers(&engine.state)?;
         self.check_memory(engine.state.wall_loads.len())?;
-        if self.digest(&engine.state.model.law) != own.digest {
+        if self.digest(&engine.model.law) != own.digest {
             return Err(RestoreError::Changed);
         }
         Ok(())
@@ -52,18 +52,14 @@ impl<Memory> Snapshot<Memory> {
 
 impl BareSnapshot {
     /// Refuses another layout, and a damper of another setup.
-    pub(super) fn check_fit<C, L: ContactLaw, M>(
-        &self,
-        state: &State<C, L, M>,
-        setup: &Setup,
-    ) -> Result<(), RestoreError> {
+    pub(super) fn check_fit(&self, state: &State, setup: &Setup) -> Result<(), RestoreError> {
         if self.version != VERSION {
             return Err(RestoreError::Version {
                 expected: VERSION,
                 found: self.version,
             });
         }
-        let cavities = state.model.compartments.len();
+        let cavities = state.compartments.len();
         let coordinates = state.mount_coordinates.position.len();
         RestoreError::count("particles", state.particles.len(), self.number.len())?;
         RestoreError::count("cavities", cavities, self.containers.len())?;
@@ -92,11 +88,8 @@ impl BareSnapshot {
     }
 
     /// Refuses containers, coordinates of the mount, loads and times that cannot be.
-    fn check_containers<C, L: ContactLaw, M>(
-        &self,
-        state: &State<C, L, M>,
-    ) -> Result<(), RestoreError> {
-        let cavities = state.model.compartments.len();
+    fn check_containers(&self, state: &State) -> Result<(), RestoreError> {
+        let cavities = state.compartments.len();
         let coordinates = state.mount_coordinates.position.len();
         RestoreError::count("loads", cavities, self.loads.len())?;
         RestoreError::count("containers", cavities, self.mount.origins.len())?;
@@ -119,10 +112,7 @@ impl BareSnapshot {
     }
 
     /// Refuses numbers that are not each particle's once, at an index of its own cavity.
-    fn check_numbers<C, L: ContactLaw, M>(
-        &self,
-        state: &State<C, L, M>,
-    ) -> Result<(), RestoreError> {
+    fn check_numbers(&self, state: &State) -> Result<(), RestoreError> {
         let particles = &state.particles;
         let mut seen = vec![false; particles.len()];
         for (index, (number, species)) in self.number.iter().zip(&self.species).enumerate() {
@@ -132,7 +122,7 @@ impl BareSnapshot {
                 .is_some_and(|seen| !std::mem::replace(seen, true));
             RestoreError::sound("particle numbers", own)?;
             let now = particles.index_of[number] as usize;
-            let at_home = state.model.cavity_of(index) == state.model.cavity_of(now);
+            let at_home = state.cavity_of(index) == state.cavity_of(now);
             RestoreError::sound("particle numbers", at_home)?;
             RestoreError::sound("species", particles.species[now] == *species)?;
         }

@@ -1,10 +1,9 @@
 //! What a step refuses of the state.
 
 use super::State;
-use crate::law::ContactLaw;
 use crate::step_error::StepError;
 
-impl<C, L: ContactLaw, M: ?Sized> State<C, L, M> {
+impl State {
     /// Refuses positions that are not finite.
     pub(crate) fn check_finite(&self) -> Result<(), StepError> {
         let bad = self

@@ -12,14 +12,21 @@ use crate::contact::WallLoad;
 use crate::mount::{Load, Mobility, Motion};
 use crate::rotation::exp;
 
-/// A cavity with the particles in it.
+/// The particles in a cavity, and the container around it.
 #[derive(Debug, Clone)]
-pub(crate) struct Compartment<C> {
-    pub(crate) cavity: C,
+pub(crate) struct Compartment {
     /// Indices of its particles.
     pub(crate) indices: Range<usize>,
     /// Number of its first wall among the walls of all cavities.
     pub(crate) first_wall: u32,
+    /// How many walls it has.
+    pub(crate) walls: u32,
+    /// The lower and the upper corner of its bounding box, container's frame, m.
+    pub(crate) bounds: [DVec3; 2],
+    /// Whether it is flat: everything stays in the plane z = 0.
+    pub(crate) planar: bool,
+    /// How thin its thinnest obstacle is, m.
+    pub(crate) thickness: f64,
     /// Where its container is, and how it moves.
     pub(crate) motion: Motion,
     /// The container's orientation as a matrix.
@@ -36,14 +43,22 @@ pub(crate) struct Compartment<C> {
     pub(crate) margin: f64,
 }
 
-impl<C: Cavity> Compartment<C> {
-    /// A cavity with the particles at `indices`, whose first wall is the one of that number. Its container
+impl Compartment {
+    /// The particles at `indices` in `cavity`, whose first wall is the one of that number. Its container
     /// is at the origin.
-    pub(crate) fn new(cavity: C, indices: Range<usize>, first_wall: u32, margin: f64) -> Self {
+    pub(crate) fn new<C: Cavity>(
+        cavity: &C,
+        indices: Range<usize>,
+        first_wall: u32,
+        margin: f64,
+    ) -> Self {
         Self {
-            cavity,
             indices,
             first_wall,
+            walls: cavity.walls(),
+            bounds: cavity.bounds(),
+            planar: cavity.is_planar(),
+            thickness: cavity.thickness(),
             motion: Motion::default(),
             rotation: DMat3::IDENTITY,
             turned: false,
@@ -56,25 +71,25 @@ impl<C: Cavity> Compartment<C> {
     /// What the particles do to the container, from the loads on the walls of all cavities.
     pub(crate) fn load(&self, walls: &[WallLoad]) -> Load {
         let first = self.first_wall as usize;
-        let own = &walls[first..first + self.cavity.walls() as usize];
+        let own = &walls[first..first + self.walls as usize];
         let force: DVec3 = own.iter().map(|wall| wall.force).sum();
         let torque: DVec3 = own.iter().map(|wall| wall.torque).sum();
         let arm = self.torque_origin - self.motion.position;
         Load::new(force, torque + arm.cross(force))
     }
 
-    /// How one of its walls stands to a point of the fixed frame.
+    /// How one of the walls of `cavity`, which is its own, stands to a point of the fixed frame.
     #[inline(always)]
-    pub(crate) fn wall(&self, wall: u32, position: DVec3) -> WallPoint {
+    pub(crate) fn wall<C: Cavity>(&self, cavity: &C, wall: u32, position: DVec3) -> WallPoint {
         let number = wall - self.first_wall;
         if self.turned {
-            let point = self.cavity.wall(number, self.to_local(position));
+            let point = cavity.wall(number, self.to_local(position));
             WallPoint {
                 normal: self.rotation * point.normal,
                 distance: point.distance,
             }
         } else {
-            self.cavity.wall(number, position - self.motion.position)
+            cavity.wall(number, position - self.motion.position)
         }
     }
 
@@ -85,12 +100,10 @@ impl<C: Cavity> Compartment<C> {
 
     /// The distance of the farthest point of the cavity from the container's origin, from above, m.
     pub(crate) fn reach(&self) -> f64 {
-        let [low, high] = self.cavity.bounds();
+        let [low, high] = self.bounds;
         low.abs().max(high.abs()).length()
     }
-}
 
-impl<C> Compartment<C> {
     /// Moves the container.
     pub(crate) fn place(&mut self, motion: Motion) {
         self.motion = motion;

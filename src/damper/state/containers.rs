@@ -1,17 +1,18 @@
 //! The containers: where the mount has them, and what the particles do to it.
 
-use super::State;
-use crate::cavity::Cavity;
-use crate::law::{ContactLaw, LawKind};
+use super::{MountCoordinates, State};
 use crate::mount::{Motion, Mount};
 use crate::step_error::StepError;
 
-impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized> State<C, L, M> {
-    /// Moves the containers to where the mount has them at `time`.
-    pub(crate) fn place_containers(&mut self, time: f64) -> Result<(), StepError> {
-        let degrees = self.mount.degrees();
-        let coordinates = &self.mount_coordinates.position[..degrees];
-        let velocities = &self.mount_coordinates.velocity[..degrees];
+impl State {
+    /// Moves the containers to where the `mount` has them at `time`.
+    pub(crate) fn place_containers(
+        &mut self,
+        mount: &dyn Mount,
+        time: f64,
+    ) -> Result<(), StepError> {
+        let coordinates = &self.mount_coordinates.position[..self.degrees];
+        let velocities = &self.mount_coordinates.velocity[..self.degrees];
         let mut both = coordinates.iter().zip(velocities);
         if let Some(coordinate) = both.position(|(x, v)| !(x.is_finite() && v.is_finite())) {
             return Err(StepError::Mount {
@@ -20,11 +21,11 @@ impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized> State<C, L, M> {
                 rate: velocities[coordinate],
             });
         }
-        for (cavity, compartment) in self.model.compartments.iter_mut().enumerate() {
-            let motion = self.mount.motion(time, coordinates, velocities, cavity);
-            let motion = checked(motion, cavity, compartment.cavity.is_planar())?;
+        for (cavity, compartment) in self.compartments.iter_mut().enumerate() {
+            let motion = mount.motion(time, coordinates, velocities, cavity);
+            let motion = checked(motion, cavity, compartment.planar)?;
             compartment.place(motion);
-            if !L::Kind::HELD {
+            if !self.holds_forces {
                 compartment.torque_origin = motion.position;
             }
         }
@@ -38,16 +39,16 @@ impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized> State<C, L, M> {
     }
 
     /// The mount's accelerations under the loads on the walls.
-    pub(crate) fn accelerate_mount(&mut self, time: f64) {
-        for (compartment, load) in self.model.compartments.iter().zip(&mut self.loads) {
+    pub(crate) fn accelerate_mount(&mut self, mount: &dyn Mount, time: f64) {
+        for (compartment, load) in self.compartments.iter().zip(&mut self.loads) {
             *load = compartment.load(&self.wall_loads);
         }
-        let degrees = self.mount.degrees();
+        let degrees = self.degrees;
         let state = &mut self.mount_coordinates;
-        let compartments = self.model.compartments.iter();
+        let compartments = self.compartments.iter();
         let origins = compartments.map(|compartment| compartment.motion.position);
         state.sum_up(degrees, self.loads.iter().copied().zip(origins));
-        self.mount.accelerate(
+        mount.accelerate(
             time,
             &state.position[..degrees],
             &state.velocity[..degrees],
@@ -57,25 +58,25 @@ impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized> State<C, L, M> {
     }
 
     /// Works out anew how containers yield that turn as they do: where they stand counts.
-    pub(crate) fn update_mobilities(&mut self) {
+    pub(crate) fn update_mobilities(&mut self, mount: &dyn Mount) {
         if !self.mobilities.turn() {
             return;
         }
-        let degrees = self.mount.degrees();
-        let own = &self.mount_coordinates;
-        let own = [own.own(degrees), own.own_rates(degrees)];
-        self.mobilities.update(&self.mount, self.time, own);
-        for (cavity, compartment) in self.model.compartments.iter_mut().enumerate() {
+        let MountCoordinates {
+            position, velocity, ..
+        } = &self.mount_coordinates;
+        let own = [&position[..self.degrees], &velocity[..self.degrees]];
+        self.mobilities.update(mount, self.time, own);
+        for (cavity, compartment) in self.compartments.iter_mut().enumerate() {
             compartment.mobility = self.mobilities.own(cavity);
         }
     }
 
     /// Lets the mount begin the next step with other coordinates.
-    pub(crate) fn rebase_mount(&mut self) {
-        let degrees = self.mount.degrees();
+    pub(crate) fn rebase_mount(&mut self, mount: &dyn Mount) {
         let own = &mut self.mount_coordinates;
-        let coordinates = &mut own.position[..degrees];
-        self.mount.rebase(coordinates, &mut own.velocity[..degrees]);
+        let coordinates = &mut own.position[..self.degrees];
+        mount.rebase(coordinates, &mut own.velocity[..self.degrees]);
     }
 }
 

@@ -3,9 +3,7 @@
 use glam::DVec3;
 
 use super::{Compartment, State};
-use crate::cavity::Cavity;
-use crate::law::ContactLaw;
-use crate::mount::{Motion, Mount};
+use crate::mount::Motion;
 use crate::rotation::{exp, log};
 use crate::step_error::{Cause, StepError};
 
@@ -42,18 +40,17 @@ pub(crate) struct StepStart {
     pub(crate) impulses: Vec<f64>,
 }
 
-impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized> State<C, L, M> {
+impl State {
     /// Begins a step of `time_step` (s).
     pub(crate) fn begin_step(&mut self, time_step: f64) {
         self.time_step = time_step;
         self.step_start.motions.clear();
         let motions = self
-            .model
             .compartments
             .iter()
             .map(|compartment| compartment.motion);
         self.step_start.motions.extend(motions);
-        let impulses = &self.mount_coordinates.velocity[self.mount.degrees()..];
+        let impulses = &self.mount_coordinates.velocity[self.degrees..];
         self.step_start.impulses.clear();
         self.step_start.impulses.extend_from_slice(impulses);
     }
@@ -66,9 +63,9 @@ impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized> State<C, L, M> {
     /// What may be behind particles out of place.
     pub(crate) fn cause(&self) -> Cause {
         let radius = self.particles.smallest_radius;
-        let reference = self.model.law.design_speed();
+        let reference = self.design_speed;
         let borne = ABOVE * reference;
-        let compartments = self.model.compartments.iter().zip(&self.step_start.motions);
+        let compartments = self.compartments.iter().zip(&self.step_start.motions);
         let far = compartments.map(|(compartment, start)| {
             let motion = compartment.motion;
             let way = motion.position.distance(start.position);
@@ -104,15 +101,12 @@ impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized> State<C, L, M> {
 
     /// The coordinate of the mount that moves fastest.
     fn runaway(&self) -> Option<Cause> {
-        let rates = self
-            .mount_coordinates
-            .own_rates(self.mount.degrees())
-            .iter()
-            .enumerate();
+        let [coordinates, rates] = self.mount_state();
+        let rates = rates.iter().enumerate();
         let (coordinate, rate) = rates.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
         Some(Cause::Mount {
             coordinate,
-            value: self.mount_coordinates.own(self.mount.degrees())[coordinate],
+            value: coordinates[coordinate],
             rate: *rate,
         })
     }
@@ -120,7 +114,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized> State<C, L, M> {
     /// Index and speed of the particle that is fastest relative to its container.
     fn fastest(&self) -> (usize, f64) {
         let mut fastest = (0, 0.0);
-        for compartment in &self.model.compartments {
+        for compartment in &self.compartments {
             for index in compartment.indices.clone() {
                 let position = || self.particles.position.get(index);
                 let velocity = self.particles.velocity.get(index);
@@ -138,7 +132,6 @@ impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized> State<C, L, M> {
     pub(crate) fn check_course(&self) -> Result<(), StepError> {
         let limit = JUMP * self.particles.smallest_radius;
         for (cavity, (compartment, start)) in self
-            .model
             .compartments
             .iter()
             .zip(&self.step_start.motions)
@@ -168,7 +161,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized> State<C, L, M> {
     fn check_turn(
         &self,
         cavity: usize,
-        compartment: &Compartment<C>,
+        compartment: &Compartment,
         start: &Motion,
         limit: f64,
     ) -> Result<(), StepError> {
@@ -192,13 +185,12 @@ impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized> State<C, L, M> {
 
     /// Refuses the velocity of a prescribed motion that is not the rate of its position.
     pub(crate) fn check_rates(&self) -> Result<(), StepError> {
-        if self.mount.degrees() > 0 {
+        if self.degrees > 0 {
             return Ok(());
         }
         let radius = self.particles.smallest_radius.min(f64::MAX);
         let time_step = self.time_step;
         for (cavity, (compartment, start)) in self
-            .model
             .compartments
             .iter()
             .zip(&self.step_start.motions)
@@ -229,7 +221,7 @@ impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized> State<C, L, M> {
     fn check_angular_rate(
         &self,
         cavity: usize,
-        compartment: &Compartment<C>,
+        compartment: &Compartment,
         start: &Motion,
     ) -> Result<(), StepError> {
         let motion = &compartment.motion;
@@ -256,8 +248,8 @@ impl<C: Cavity, L: ContactLaw, M: Mount + ?Sized> State<C, L, M> {
     /// step that ends in it, or as deep as an overlap may not be on either side, is an error.
     pub(crate) fn check_passages(&self) -> Result<(), StepError> {
         let time_step = self.time_step;
-        for compartment in &self.model.compartments {
-            let thickness = compartment.cavity.thickness();
+        for compartment in &self.compartments {
+            let thickness = compartment.thickness;
             if !(self.contained && thickness < f64::INFINITY) {
                 continue;
             }

@@ -21,7 +21,7 @@ pub(crate) struct MountCoordinates {
 }
 
 impl MountCoordinates {
-    pub(crate) fn new<M: Mount + ?Sized>(mount: &M, cavities: usize) -> Self {
+    pub(crate) fn new(mount: &dyn Mount, cavities: usize) -> Self {
         let degrees = mount.degrees();
         let count = degrees + PER_CAVITY * cavities;
         let mut state = Self {
@@ -35,18 +35,6 @@ impl MountCoordinates {
             &mut state.velocity[..degrees],
         );
         state
-    }
-
-    /// The mount's own coordinates, of which there are `degrees`.
-    #[inline]
-    pub(crate) fn own(&self, degrees: usize) -> &[f64] {
-        &self.position[..degrees]
-    }
-
-    /// Their rates.
-    #[inline]
-    pub(crate) fn own_rates(&self, degrees: usize) -> &[f64] {
-        &self.velocity[..degrees]
     }
 
     /// Starts the sums afresh, with the containers' origins at `origins`. The mount has `degrees`

@@ -2,12 +2,12 @@
 
 use glam::{DVec3, dvec3};
 
-use super::{Coefficients, State};
+use super::{Coefficients, Model, State};
 use crate::cavity::Cavity;
 use crate::contact::{Body, Contact};
 use crate::digest::Digest;
 use crate::law::{ContactLaw, ForceLaw, ImpulseLaw, LawKind, LawVisitor};
-use crate::mount::{Mobility, Mount};
+use crate::mount::Mobility;
 
 /// The setup of a damper, as far as its state means nothing without it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,23 +31,23 @@ impl Setup {
         }
     }
 
-    /// The setup of `state`, as it was built, under steps of `time_step` (s).
-    pub(crate) fn new<C: Cavity, L: ContactLaw, M: Mount + ?Sized>(
-        state: &State<C, L, M>,
+    /// The setup of `state`, as it was built, under a `model` and steps of `time_step` (s).
+    pub(crate) fn new<C: Cavity, L: ContactLaw>(
+        model: &Model<C, L>,
+        state: &State,
         time_step: f64,
     ) -> Self {
-        let model = &state.model;
         let mut cavities = Digest::default();
         let mut mount = Digest::default();
-        cavities.word(model.compartments.len() as u64);
-        mount.word(state.mount.degrees() as u64);
+        cavities.word(model.cavities.len() as u64);
+        mount.word(state.degrees as u64);
         for number in state.mobilities.all().iter().flat_map(Mobility::numbers) {
             mount.number(number);
         }
-        for compartment in &model.compartments {
-            add_cavity(&mut cavities, &compartment.cavity);
+        for cavity in &model.cavities {
+            add_cavity(&mut cavities, cavity);
         }
-        if model.compartments.len() > 1 {
+        if model.cavities.len() > 1 {
             cavities.words(&state.particles.id);
         }
         Self {

@@ -27,7 +27,8 @@ pub(crate) struct StepTime {
 pub(crate) struct StateView<'a, C, L: ContactLaw> {
     pub(crate) law: &'a L,
     pub(crate) coefficients: &'a Coefficients<L::Coefficients>,
-    pub(crate) compartments: &'a [Compartment<C>],
+    pub(crate) cavities: &'a [C],
+    pub(crate) compartments: &'a [Compartment],
     pub(crate) compartment_of_wall: &'a [u32],
     pub(crate) position: Rows<'a>,
     pub(crate) velocity: Rows<'a>,
@@ -80,7 +81,8 @@ impl<C: Cavity, L: ContactLaw> StateView<'_, C, L> {
     /// How a wall stands to a point of the fixed frame.
     #[inline(always)]
     pub(crate) fn wall_point(&self, wall: u32, position: DVec3) -> WallPoint {
-        self.compartment_of_wall(wall).wall(wall, position)
+        let number = self.cavity_of_wall(wall);
+        self.compartments[number].wall(&self.cavities[number], wall, position)
     }
 
     /// How the centre of the first body was accelerated relative to that of the second when forces were
@@ -109,7 +111,7 @@ impl<C: Cavity, L: ContactLaw> StateView<'_, C, L> {
     }
 
     #[inline(always)]
-    pub(crate) fn compartment_of_wall(&self, wall: u32) -> &Compartment<C> {
+    pub(crate) fn compartment_of_wall(&self, wall: u32) -> &Compartment {
         &self.compartments[self.cavity_of_wall(wall)]
     }
 }

@@ -1,32 +1,22 @@
 //! What a step does in one way under a force law and in another under an impulse law.
 
 use crate::cavity::Cavity;
-use crate::damper::engine::Engine;
+use crate::damper::engine::{Engine, Parts};
 use crate::damper::state::StepTime;
-use crate::detector::Detector;
 use crate::integrator::Stage;
 use crate::law::{ContactLaw, ForceLaw, ImpulseLaw, LawVisitor};
-use crate::mount::Mount;
-use crate::observer::Observer;
 use crate::step_error::StepError;
 
 /// Forces of the current state: worked out anew under a force law, held under an impulse law.
-pub(super) struct EvaluateForces<'a, C, L: ContactLaw, M: ?Sized, D, O> {
-    pub(super) engine: &'a mut Engine<C, L, M, D>,
+pub(super) struct EvaluateForces<'a, 'p, C, L: ContactLaw> {
+    pub(super) engine: &'a mut Engine<C, L>,
     pub(super) elapsed: f64,
     pub(super) stage: Stage,
     pub(super) afresh: bool,
-    pub(super) observer: &'a mut O,
+    pub(super) parts: &'a mut Parts<'p>,
 }
 
-impl<C, L, M, D, O> LawVisitor<L> for EvaluateForces<'_, C, L, M, D, O>
-where
-    C: Cavity,
-    L: ContactLaw,
-    M: Mount + ?Sized,
-    D: Detector,
-    O: Observer,
-{
+impl<C: Cavity, L: ContactLaw> LawVisitor<L> for EvaluateForces<'_, '_, C, L> {
     type Output = Result<(), StepError>;
 
     fn forces(self) -> Self::Output
@@ -34,12 +24,18 @@ where
         L: ForceLaw,
     {
         let Engine {
+            model,
             state,
             neighbours,
             forces,
             ..
         } = self.engine;
-        neighbours.find_contacts(state, self.afresh)?;
+        let Parts {
+            detectors,
+            observer,
+            ..
+        } = self.parts;
+        neighbours.find_contacts(model, state, *detectors, self.afresh)?;
         let predicted = self.stage == Stage::Predicted;
         let now = StepTime {
             elapsed: self.elapsed,
@@ -48,12 +44,12 @@ where
         };
         let blocks = &mut neighbours.blocks;
         match self.stage {
-            Stage::Trial => forces.evaluate::<C, M, (), false>(state, blocks, now, &mut ()),
+            Stage::Trial => forces.evaluate::<C, false>(model, state, blocks, now, &mut ()),
             Stage::End | Stage::Predicted => {
-                forces.evaluate::<C, M, O, true>(state, blocks, now, self.observer)
+                forces.evaluate::<C, true>(model, state, blocks, now, *observer)
             }
         }?;
-        neighbours.check_overlaps(state)
+        neighbours.check_overlaps(model, state)
     }
 
     fn impulses(self) -> Self::Output
@@ -65,26 +61,19 @@ where
 }
 
 /// The impulses of a step, under a law that has such.
-pub(super) struct SolveImpulses<'a, C, L: ContactLaw, M: ?Sized, D, O> {
-    pub(super) engine: &'a mut Engine<C, L, M, D>,
-    pub(super) observer: &'a mut O,
+pub(super) struct SolveImpulses<'a, 'p, C, L: ContactLaw> {
+    pub(super) engine: &'a mut Engine<C, L>,
+    pub(super) parts: &'a mut Parts<'p>,
 }
 
-impl<C, L, M, D, O> LawVisitor<L> for SolveImpulses<'_, C, L, M, D, O>
-where
-    C: Cavity,
-    L: ContactLaw,
-    M: Mount + ?Sized,
-    D: Detector,
-    O: Observer,
-{
+impl<C: Cavity, L: ContactLaw> LawVisitor<L> for SolveImpulses<'_, '_, C, L> {
     type Output = Result<(), StepError>;
 
     fn forces(self) -> Self::Output
     where
         L: ForceLaw,
     {
-        self.engine.state.update_mobilities();
+        self.engine.state.update_mobilities(self.parts.mount);
         Ok(())
     }
 
@@ -92,9 +81,15 @@ where
     where
         L: ImpulseLaw,
     {
-        let engine = self.engine;
-        match &mut engine.impulses {
-            Some(solver) => solver.solve(&mut engine.state, &mut engine.neighbours, self.observer),
+        let Engine {
+            model,
+            state,
+            neighbours,
+            impulses,
+            ..
+        } = self.engine;
+        match impulses {
+            Some(solver) => solver.solve(model, state, neighbours, self.parts),
             None => Ok(()),
         }
     }

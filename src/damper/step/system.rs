@@ -1,49 +1,39 @@
 //! What a step shows to an integrator.
 
 use crate::cavity::Cavity;
-use crate::damper::engine::Engine;
+use crate::damper::engine::{Engine, Parts};
 use crate::damper::state::Clock;
-use crate::detector::Detector;
 use crate::integrator::{Columns, Motions, Stage, System};
 use crate::law::{ContactLaw, LawKind};
-use crate::mount::Mount;
-use crate::observer::Observer;
 use crate::step_error::StepError;
 
 /// The engine in one step, as an integrator sees it.
-pub(super) struct SteppedSystem<'a, C, L: ContactLaw, M: ?Sized, D, O> {
-    engine: &'a mut Engine<C, L, M, D>,
-    observer: &'a mut O,
+pub(super) struct SteppedSystem<'a, 'p, C, L: ContactLaw> {
+    engine: &'a mut Engine<C, L>,
+    parts: &'a mut Parts<'p>,
     /// When the step began, s.
     begin: f64,
     /// Whether nothing has been evaluated in this step yet.
     fresh: bool,
 }
 
-impl<'a, C, L: ContactLaw, M: ?Sized, D, O> SteppedSystem<'a, C, L, M, D, O> {
+impl<'a, 'p, C, L: ContactLaw> SteppedSystem<'a, 'p, C, L> {
     /// At the beginning of a step.
     pub(super) const fn new(
-        engine: &'a mut Engine<C, L, M, D>,
-        observer: &'a mut O,
+        engine: &'a mut Engine<C, L>,
+        parts: &'a mut Parts<'p>,
         clock: &Clock,
     ) -> Self {
         Self {
             begin: clock.time(),
             engine,
-            observer,
+            parts,
             fresh: true,
         }
     }
 }
 
-impl<C, L, M, D, O> System for SteppedSystem<'_, C, L, M, D, O>
-where
-    C: Cavity,
-    L: ContactLaw,
-    M: Mount + ?Sized,
-    D: Detector,
-    O: Observer,
-{
+impl<C: Cavity, L: ContactLaw> System for SteppedSystem<'_, '_, C, L> {
     fn motions(&mut self) -> Motions<'_> {
         let state = &mut self.engine.state;
         let (particles, mount) = (&mut state.particles, &mut state.mount_coordinates);
@@ -78,6 +68,6 @@ where
         let afresh = std::mem::take(&mut self.fresh);
         let time = self.begin + elapsed;
         self.engine
-            .evaluate(time, elapsed, stage, afresh, self.observer)
+            .evaluate(time, elapsed, stage, afresh, self.parts)
     }
 }

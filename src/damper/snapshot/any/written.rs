@@ -39,9 +39,9 @@ impl Written {
         &self,
         damper: &Damper<C, L, M, D, I>,
     ) -> Result<Snapshot<ContactMemory<L>>, RestoreError> {
-        let state = &damper.engine.state;
-        self.state.check_fit(state, &damper.setup)?;
-        let law = &state.model.law;
+        let engine = &damper.engine;
+        self.state.check_fit(&engine.state, &damper.setup)?;
+        let law = &engine.model.law;
         let mut told = self.told.iter().copied();
         let mut recalled = |[first, second]: [u32; 2]| {
             let memory = L::Kind::recall_memory(law, &mut told)?;
