@@ -97,6 +97,8 @@ impl Mobility {
 pub(crate) struct Mobilities {
     /// Of the second of two containers to the first, row by row; none if the mount has no coordinates.
     each: Vec<Mobility>,
+    /// Whether loads turn any container.
+    turn: bool,
     cavities: usize,
     loads: Vec<Load>,
     rates: Vec<f64>,
@@ -155,6 +157,7 @@ impl Mobilities {
             }
             self.loads[struck] = Load::default();
         }
+        self.turn = self.each.iter().any(Mobility::turns);
     }
 
     /// All of them, row by row.
@@ -169,7 +172,7 @@ impl Mobilities {
     }
 
     /// Whether loads turn any container.
-    pub(crate) fn turn(&self) -> bool {
-        self.each.iter().any(Mobility::turns)
+    pub(crate) const fn turn(&self) -> bool {
+        self.turn
     }
 }

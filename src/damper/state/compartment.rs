@@ -34,7 +34,9 @@ pub(crate) struct Compartment {
     /// Whether the container stands turned, turns, or is turned by what the particles do.
     pub(crate) turned: bool,
     /// What impulses on the container do to it.
-    pub(crate) mobility: Mobility,
+    mobility: Mobility,
+    /// Whether they turn it.
+    yields_turning: bool,
     /// The point that the torques on the walls are about: where the container's origin was when they were
     /// worked out, m.
     pub(crate) torque_origin: DVec3,
@@ -63,6 +65,7 @@ impl Compartment {
             rotation: DMat3::IDENTITY,
             turned: false,
             mobility: Mobility::ZERO,
+            yields_turning: false,
             torque_origin: DVec3::ZERO,
             margin,
         }
@@ -104,10 +107,16 @@ impl Compartment {
         low.abs().max(high.abs()).length()
     }
 
+    /// Takes what impulses on the container do to it.
+    pub(crate) fn set_mobility(&mut self, mobility: Mobility) {
+        self.mobility = mobility;
+        self.yields_turning = mobility.turns();
+    }
+
     /// Moves the container.
     pub(crate) fn place(&mut self, motion: Motion) {
         self.motion = motion;
-        self.turned = !motion.is_translation() || self.mobility.turns();
+        self.turned = !motion.is_translation() || self.yields_turning;
         if self.turned {
             self.rotation = DMat3::from_quat(motion.orientation);
         }

@@ -68,7 +68,7 @@ impl State {
         let own = [&position[..self.degrees], &velocity[..self.degrees]];
         self.mobilities.update(mount, self.time, own);
         for (cavity, compartment) in self.compartments.iter_mut().enumerate() {
-            compartment.mobility = self.mobilities.own(cavity);
+            compartment.set_mobility(self.mobilities.own(cavity));
         }
     }
 
@@ -80,7 +80,8 @@ impl State {
     }
 }
 
-/// `motion` with its orientation normalised, unless no container can move so.
+/// `motion` with its orientation normalised, unless no container can move so. Most motions are translations, and
+/// done with early.
 pub(crate) fn checked(motion: Motion, cavity: usize, planar: bool) -> Result<Motion, StepError> {
     let Motion {
         position,
@@ -94,6 +95,9 @@ pub(crate) fn checked(motion: Motion, cavity: usize, planar: bool) -> Result<Mot
             position,
             velocity,
         });
+    }
+    if motion.is_translation() && (!planar || motion.is_in_plane()) {
+        return Ok(motion);
     }
     let unfit = StepError::Orientation {
         cavity,
