@@ -13,8 +13,9 @@ use crate::mount::{Driven, Load, Motion, Mount};
 use crate::observer::{Observable, Observer};
 use crate::particle::Particle;
 use crate::step_error::StepError;
-use engine::{Engine, Parts};
+use engine::Engine;
 use observable::Observed;
+use parts::Parts;
 use state::{Clock, Compartment, Setup};
 
 mod builder;
@@ -26,6 +27,7 @@ mod forces;
 mod impulses;
 mod neighbours;
 mod observable;
+mod parts;
 mod snapshot;
 pub(crate) mod state;
 mod step;

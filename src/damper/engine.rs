@@ -2,11 +2,9 @@
 
 use super::forces::Forces;
 use super::impulses::ContactSolver;
-use super::neighbours::{Detectors, Neighbours};
+use super::neighbours::Neighbours;
 use super::state::{Model, State};
 use crate::law::ContactLaw;
-use crate::mount::Mount;
-use crate::observer::Observer;
 
 /// The model and the state, and the stages that change it. Compiled for each kind of cavity and contact law,
 /// which innermost loops ask; once for all mounts, detectors, integrators and observers.
@@ -18,13 +16,6 @@ pub(crate) struct Engine<C, L: ContactLaw> {
     pub(crate) forces: Forces<L>,
     /// None under a force law.
     pub(crate) impulses: Option<ContactSolver>,
-}
-
-/// The parts that a step asks, some times each.
-pub(crate) struct Parts<'a> {
-    pub(crate) mount: &'a dyn Mount,
-    pub(crate) detectors: &'a mut dyn Detectors,
-    pub(crate) observer: &'a mut dyn Observer,
 }
 
 impl<C, L: ContactLaw> Engine<C, L> {

@@ -6,8 +6,8 @@
 //! moves everything: x' = x + (v + v') dt/2. What is here serves the step alone, but for the forces that
 //! contacts at rest bore, from which the next step starts.
 
-use super::engine::Parts;
 use super::neighbours::{Detectors, Neighbours};
+use super::parts::Parts;
 use super::state::{Model, Plane, Space, State, Vectors, Volume};
 use crate::cavity::Cavity;
 use crate::law::{ImpulseLaw, SolverParameters, SweepOrder};

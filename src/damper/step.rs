@@ -3,8 +3,9 @@
 //! In: the state at its start, an integrator, and the parts that it asks. Out: the state at its end, and what
 //! observers are told. Called by the damper, once for each step of its own and as often as a drive takes.
 
-use super::engine::{Engine, Parts};
+use super::engine::Engine;
 use super::observable::Observed;
+use super::parts::Parts;
 use super::state::Clock;
 use crate::cavity::Cavity;
 use crate::integrator::{Integrator, Stage};

@@ -6,10 +6,11 @@ use super::{BuildError, Builder, Settings};
 use crate::cavity::Cavity;
 use crate::contact::{Body, WallLoad};
 use crate::damper::Damper;
-use crate::damper::engine::{Engine, Parts};
+use crate::damper::engine::Engine;
 use crate::damper::forces::Forces;
 use crate::damper::impulses::ContactSolver;
 use crate::damper::neighbours::Neighbours;
+use crate::damper::parts::Parts;
 use crate::damper::state::{
     Clock, Coefficients, Compartment, Model, MountCoordinates, Particles, PreviousAccelerations,
     Setup, State, StepStart,

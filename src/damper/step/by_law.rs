@@ -1,7 +1,8 @@
 //! What a step does in one way under a force law and in another under an impulse law.
 
 use crate::cavity::Cavity;
-use crate::damper::engine::{Engine, Parts};
+use crate::damper::engine::Engine;
+use crate::damper::parts::Parts;
 use crate::damper::state::StepTime;
 use crate::integrator::Stage;
 use crate::law::{ContactLaw, ForceLaw, ImpulseLaw, LawVisitor};

@@ -1,7 +1,8 @@
 //! What a step shows to an integrator.
 
 use crate::cavity::Cavity;
-use crate::damper::engine::{Engine, Parts};
+use crate::damper::engine::Engine;
+use crate::damper::parts::Parts;
 use crate::damper::state::Clock;
 use crate::integrator::{Columns, Motions, Stage, System};
 use crate::law::{ContactLaw, LawKind};
