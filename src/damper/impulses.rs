@@ -13,10 +13,9 @@ use crate::cavity::Cavity;
 use crate::law::{ImpulseLaw, SolverParameters, SweepOrder};
 use crate::step_error::StepError;
 use constraint::{ContactConstraint, RollingConstraint};
-use container::{Container, Containers};
+use container::{Container, Containers, TurningContainer};
 use pairs::Lanes;
 use prepare::ConstraintInfo;
-use turning::TurningContainer;
 
 mod apply;
 mod constraint;

@@ -178,7 +178,7 @@ fn compartments<C: Cavity>(
         let own = |particle: &&Particle| particle.cavity as usize == number;
         let end = index + particles.iter().filter(own).count();
         let mut compartment = Compartment::new(cavity, index..end, wall, margin(number));
-        compartment.set_mobility(mobilities.own(number));
+        compartment.set_mobility(&mobilities.own(number));
         index = end;
         wall += compartment.walls;
         compartments.push(compartment);

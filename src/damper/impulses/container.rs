@@ -2,7 +2,6 @@
 
 use glam::{DMat3, DVec3};
 
-use super::turning::TurningContainer;
 use crate::damper::state::{Compartment, Space, State};
 use crate::mount::{Load, Mobility, Motion, Mount};
 
@@ -32,6 +31,29 @@ impl<S: Space> Container<S> {
             velocity_gain,
             speed_gain: velocity_gain.length(),
             origin: start.position,
+        }
+    }
+}
+
+/// How a container turns.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct TurningContainer<S: Space> {
+    /// Angular velocity after the impulses so far, rad/s.
+    pub(super) spin: S::Spin,
+    /// Angular velocity that the step leaves it without impulses, rad/s.
+    pub(super) free: S::Spin,
+    /// Angular velocity at the beginning of the step, rad/s.
+    pub(super) start: DVec3,
+}
+
+impl<S: Space> TurningContainer<S> {
+    /// One that moves from `start` to `end` without impulses.
+    pub(super) fn new(start: &Motion, end: &Motion) -> Self {
+        let free = S::spin(end.angular_velocity);
+        Self {
+            spin: free,
+            free,
+            start: start.angular_velocity,
         }
     }
 }

@@ -7,19 +7,7 @@ use super::container::Containers;
 use super::{ImpulseSolver, SolverBody};
 use crate::contact::HeldForce;
 use crate::damper::state::{Compartment, Space};
-use crate::mount::Motion;
 use crate::rotation::exp;
-
-/// How a container turns.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct TurningContainer<S: Space> {
-    /// Angular velocity after the impulses so far, rad/s.
-    pub(super) spin: S::Spin,
-    /// Angular velocity that the step leaves it without impulses, rad/s.
-    pub(super) free: S::Spin,
-    /// Angular velocity at the beginning of the step, rad/s.
-    pub(super) start: DVec3,
-}
 
 /// A wall where a particle touches it.
 #[derive(Debug, Clone, Copy)]
@@ -32,18 +20,6 @@ pub(super) struct WallMotion<S: Space> {
     pub(super) velocity_gain: DVec3,
     /// The same as a speed, for a particle that is carried along.
     pub(super) speed_gain: f64,
-}
-
-impl<S: Space> TurningContainer<S> {
-    /// One that moves from `start` to `end` without impulses.
-    pub(super) fn new(start: &Motion, end: &Motion) -> Self {
-        let free = S::spin(end.angular_velocity);
-        Self {
-            spin: free,
-            free,
-            start: start.angular_velocity,
-        }
-    }
 }
 
 impl<S: Space> Containers<S> {

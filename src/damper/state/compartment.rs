@@ -108,8 +108,8 @@ impl Compartment {
     }
 
     /// Takes what impulses on the container do to it.
-    pub(crate) fn set_mobility(&mut self, mobility: Mobility) {
-        self.mobility = mobility;
+    pub(crate) fn set_mobility(&mut self, mobility: &Mobility) {
+        self.mobility = *mobility;
         self.yields_turning = mobility.turns();
     }
 

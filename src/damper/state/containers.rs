@@ -68,7 +68,7 @@ impl State {
         let own = [&position[..self.degrees], &velocity[..self.degrees]];
         self.mobilities.update(mount, self.time, own);
         for (cavity, compartment) in self.compartments.iter_mut().enumerate() {
-            compartment.set_mobility(self.mobilities.own(cavity));
+            compartment.set_mobility(&self.mobilities.own(cavity));
         }
     }
 
