@@ -154,7 +154,7 @@ fn wall<C: Cavity, L: ForceLaw>(
     let velocity = surface_velocity::<Volume>(point.normal, towards, spins, levers);
     let mut contact = Contact::new(point.normal, grain.radius - point.distance, velocity);
     contact.spins = spins;
-    contact.wall_inverse_mass = compartment.inverse_mass_along(point.normal, touch);
+    contact.wall_inverse_mass = compartment.inverse_mass_along::<Volume>(point.normal, touch);
     let species = view.species[index as usize];
     (*view.coefficients.wall(species), contact)
 }

@@ -43,6 +43,13 @@ pub(super) const BATCH_SIZE: usize = 32;
 
 type Column = [f64; BATCH_SIZE];
 
+/// As many of `bodies` as there is room for. Loops that count them need no other comparison for the columns
+/// of a batch, where an iterator over them would not let the compiler see that.
+#[inline(always)]
+pub(super) fn side_by_side(bodies: &[[u32; 2]]) -> &[[u32; 2]] {
+    &bodies[..bodies.len().min(BATCH_SIZE)]
+}
+
 /// A column of vectors.
 #[derive(Debug, Clone)]
 struct Lanes {
@@ -87,6 +94,44 @@ impl Lanes {
             self.z[n] = vector.z;
         } else {
             self.set(n, vector);
+        }
+    }
+}
+
+/// The columns of the state that contacts are gathered from, of one length, so that one comparison stands
+/// for all their bounds.
+struct Columns<'a, S: Space> {
+    position: &'a [S::Row],
+    velocity: &'a [S::Row],
+    spin: &'a [S::SpinRow],
+    radius: &'a [f64],
+}
+
+/// Where the centre of a particle is, and how it moves.
+struct Centre<S: Space> {
+    position: S::Vector,
+    velocity: S::Vector,
+    spin: S::Spin,
+}
+
+impl<'a, S: Space> Columns<'a, S> {
+    #[inline(always)]
+    fn new<C, L: ContactLaw>(view: &StateView<'a, C, L>) -> Self {
+        let count = view.radius.len();
+        Self {
+            position: &S::rows(view.position.flat())[..count],
+            velocity: &S::rows(view.velocity.flat())[..count],
+            spin: &S::spin_rows(view.spin.flat())[..count],
+            radius: view.radius,
+        }
+    }
+
+    #[inline(always)]
+    fn centre(&self, index: usize) -> Centre<S> {
+        Centre {
+            position: S::from_row(self.position[index]),
+            velocity: S::from_row(self.velocity[index]),
+            spin: S::from_spin_row(self.spin[index]),
         }
     }
 }
@@ -145,58 +190,64 @@ impl<L: ForceLaw> Batch<L> {
 
     /// Takes over the pairs of `bodies`, at most [`BATCH_SIZE`] of them.
     #[inline(always)]
+    #[allow(clippy::needless_range_loop)] // See `side_by_side`.
     pub(super) fn gather_pairs<C: Cavity, S: Space>(
         &mut self,
         view: &StateView<'_, C, L>,
         bodies: &[[u32; 2]],
     ) {
-        let radius = view.radius;
-        // Columns of one length, so that one comparison stands for all their bounds.
-        let position = &S::rows(view.position.flat())[..radius.len()];
-        let velocity = &S::rows(view.velocity.flat())[..radius.len()];
-        let spin = &S::spin_rows(view.spin.flat())[..radius.len()];
-        self.count = bodies.len().min(BATCH_SIZE);
-        for (n, [i, j]) in bodies.iter().take(BATCH_SIZE).enumerate() {
-            let (i, j) = (*i as usize, *j as usize);
-            let towards = S::from_row(position[i]) - S::from_row(position[j]);
-            let velocity = S::from_row(velocity[i]) - S::from_row(velocity[j]);
-            self.towards.set_vector::<S>(n, S::in_space(towards));
-            self.velocity.set_vector::<S>(n, S::in_space(velocity));
-            let spins = [spin[i], spin[j]].map(|spin| S::spin_in_space(S::from_spin_row(spin)));
-            self.spins[0].set_spin::<S>(n, spins[0]);
-            self.spins[1].set_spin::<S>(n, spins[1]);
+        let columns = Columns::<S>::new(view);
+        let bodies = side_by_side(bodies);
+        self.count = bodies.len();
+        for n in 0..bodies.len() {
+            let [i, j] = &bodies[n];
+            let first = columns.centre(*i as usize);
+            let second = columns.centre(*j as usize);
+            let towards = S::in_space(first.position - second.position);
+            let velocity = S::in_space(first.velocity - second.velocity);
+            self.towards.set_vector::<S>(n, towards);
+            self.velocity.set_vector::<S>(n, velocity);
+            self.spins[0].set_spin::<S>(n, S::spin_in_space(first.spin));
+            self.spins[1].set_spin::<S>(n, S::spin_in_space(second.spin));
         }
         if view.coefficients.only_radius().is_none() {
-            for (n, [i, j]) in bodies.iter().take(BATCH_SIZE).enumerate() {
-                self.radii[0][n] = radius[*i as usize];
-                self.radii[1][n] = radius[*j as usize];
+            for (n, [i, j]) in bodies.iter().enumerate() {
+                self.radii[0][n] = columns.radius[*i as usize];
+                self.radii[1][n] = columns.radius[*j as usize];
             }
         }
     }
 
     /// Takes over the contacts with walls of `bodies`, at most [`BATCH_SIZE`] of them.
     #[inline(always)]
-    pub(super) fn gather_walls<C: Cavity>(
+    #[allow(clippy::needless_range_loop)] // See `side_by_side`.
+    pub(super) fn gather_walls<C: Cavity, S: Space>(
         &mut self,
         view: &StateView<'_, C, L>,
         bodies: &[[u32; 2]],
     ) {
-        self.count = bodies.len().min(BATCH_SIZE);
-        for (n, [index, wall]) in bodies[..self.count].iter().enumerate() {
-            let grain = view.grain(*index as usize);
-            let point = view.wall_point(*wall, grain.position);
+        let columns = Columns::<S>::new(view);
+        let bodies = side_by_side(bodies);
+        self.count = bodies.len();
+        for n in 0..bodies.len() {
+            let [index, wall] = &bodies[n];
+            let index = *index as usize;
+            let (centre, radius) = (columns.centre(index), columns.radius[index]);
+            let position = S::in_space(centre.position);
             let compartment = view.compartment_of_wall(*wall);
-            self.towards.set(n, point.normal);
+            let point = compartment.wall(*wall, position);
+            let normal = S::flattened(point.normal);
             // Where the sphere's surface would be: there the wall moves as it turns.
-            let touch = || grain.position - point.normal * grain.radius;
-            self.wall_inverse_mass[n] = compartment.inverse_mass_along(point.normal, touch);
-            self.velocity
-                .set(n, compartment.relative(touch, grain.velocity));
-            self.spins[0].set(n, grain.spin);
-            self.spins[1].set(n, compartment.motion.angular_velocity);
-            self.radii[0][n] = grain.radius;
+            let touch = || position - normal * radius;
+            let velocity = compartment.relative(touch, S::in_space(centre.velocity));
+            self.wall_inverse_mass[n] = compartment.inverse_mass_along::<S>(normal, touch);
+            self.towards.set_vector::<S>(n, normal);
+            self.velocity.set_vector::<S>(n, velocity);
+            self.spins[0].set_spin::<S>(n, S::spin_in_space(centre.spin));
+            self.spins[1].set_spin::<S>(n, compartment.motion.angular_velocity);
+            self.radii[0][n] = radius;
             self.radii[1][n] = 0.0;
-            self.overlap[n] = grain.radius - point.distance;
+            self.overlap[n] = radius - point.distance;
         }
     }
 

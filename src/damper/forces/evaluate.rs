@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::batch::{BATCH_SIZE, Batch, SpherePair, SphereWall};
+use super::batch::{BATCH_SIZE, Batch, SpherePair, SphereWall, side_by_side};
 use super::report::{report_pairs, report_walls};
 use super::sums::Sums;
 use crate::cavity::Cavity;
@@ -97,6 +97,7 @@ impl<L: ForceLaw> BlockForces<L> {
     }
 
     /// Adds the forces of the pairs within the block. Returns the largest overlap in m.
+    #[allow(clippy::needless_range_loop)] // See `side_by_side`.
     fn add_pairs<C: Cavity, S: Space, const END: bool>(
         &mut self,
         block: &mut Block<L>,
@@ -109,8 +110,9 @@ impl<L: ForceLaw> BlockForces<L> {
         for run in runs(list.contacts.len()) {
             evaluate_pairs::<C, L, S, END>(view, list, batch, run.clone());
             deepest = deepest.max(batch.largest_overlap());
-            let bodies = &list.contacts.bodies()[run.clone()];
-            for (n, [i, j]) in bodies.iter().take(BATCH_SIZE).enumerate() {
+            let bodies = side_by_side(&list.contacts.bodies()[run.clone()]);
+            for n in 0..bodies.len() {
+                let [i, j] = &bodies[n];
                 let (push, [first, second]) = (batch.push(n), batch.torques(n));
                 sums.add(*i as usize, push, first);
                 sums.add(*j as usize, -push, second);
@@ -159,6 +161,7 @@ impl<L: ForceLaw> BlockForces<L> {
     }
 
     /// Adds the forces of the walls, and the loads on them. Returns the largest overlap in m.
+    #[allow(clippy::needless_range_loop)] // See `side_by_side`.
     fn add_walls<C: Cavity, S: Space, const END: bool>(
         &mut self,
         block: &mut Block<L>,
@@ -167,17 +170,20 @@ impl<L: ForceLaw> BlockForces<L> {
         observer: &mut dyn Observer,
     ) -> f64 {
         let (list, batch) = (&mut block.walls, &mut *self.batch);
+        let position = S::rows(view.position.flat());
         let mut deepest = 0.0_f64;
         for run in runs(list.contacts.len()) {
             evaluate_walls::<C, L, S, END>(view, list, batch, run.clone());
             deepest = deepest.max(batch.largest_overlap());
-            for (n, [index, wall]) in list.contacts.bodies()[run.clone()].iter().enumerate() {
+            let bodies = side_by_side(&list.contacts.bodies()[run.clone()]);
+            for n in 0..bodies.len() {
+                let [index, wall] = &bodies[n];
                 let (push, [turn, _]) = (batch.push(n), batch.torques(n));
                 let index = *index as usize;
                 sums.add(index, push, turn);
                 let compartment = view.compartment_of_wall(*wall);
-                let arm = view.position.get(index) - compartment.motion.position;
-                self.loads[*wall as usize].react(push, turn, arm);
+                let arm = S::from_row(position[index]) - S::vector(compartment.motion.position);
+                react::<S>(&mut self.loads[*wall as usize], push, turn, arm);
                 if batch.overlap(n) > view.radius[index] {
                     let partner = Partner::Wall(wall - compartment.first_wall);
                     block.escaped = Some(ContactId { index, partner });
@@ -189,6 +195,16 @@ impl<L: ForceLaw> BlockForces<L> {
         }
         deepest
     }
+}
+
+/// Adds to the load on a wall the reaction to `push` on a particle, with the couple `turn` besides, at `arm`
+/// from the container's origin.
+#[inline(always)]
+fn react<S: Space>(load: &mut WallLoad, push: DVec3, turn: DVec3, arm: S::Vector) {
+    let push = S::vector(push);
+    load.force = S::in_space(S::vector(load.force) - push);
+    let torque = S::moment(arm, push) + S::spin(turn);
+    load.torque = S::spin_in_space(S::spin(load.torque) - torque);
 }
 
 /// Runs of at most [`BATCH_SIZE`] contacts, one after the other.
@@ -235,7 +251,7 @@ fn evaluate_walls<C: Cavity, L: ForceLaw, S: Space, const END: bool>(
     run: Range<usize>,
 ) {
     let bodies = &list.contacts.bodies()[run.clone()];
-    batch.gather_walls::<C>(view, bodies);
+    batch.gather_walls::<C, S>(view, bodies);
     list.load_memories(run.clone(), view.stamp, batch.memory_mut());
     let kinds = bodies.iter().map(|[index, _]| {
         let species = view.species[*index as usize];

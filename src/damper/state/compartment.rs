@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use glam::{DMat3, DVec3};
 
+use super::Space;
 use crate::cavity::{Cavity, WallPoint};
 use crate::contact::WallLoad;
 use crate::mount::{Load, Mobility, Motion};
@@ -190,11 +191,16 @@ impl Compartment {
 
     /// Velocity along `normal` that the wall gains per unit impulse along it at a point, 1/kg.
     #[inline(always)]
-    pub(crate) fn inverse_mass_along(&self, normal: DVec3, point: impl Fn() -> DVec3) -> f64 {
+    pub(crate) fn inverse_mass_along<S: Space>(
+        &self,
+        normal: DVec3,
+        point: impl Fn() -> DVec3,
+    ) -> f64 {
         if self.turned {
             self.mobility.along(normal, point() - self.motion.position)
         } else {
-            normal.dot(self.mobility.linear * normal)
+            let normal = S::vector(normal);
+            S::dot(normal, S::transform(&self.mobility.linear, normal))
         }
     }
 

@@ -88,6 +88,8 @@ pub(crate) trait Space: Copy + Debug + Default + Send + Sync + 'static {
     fn transform(matrix: &DMat3, vector: Self::Vector) -> Self::Vector;
     /// Vector product of a spin and a vector: velocity at an arm.
     fn swing(spin: Self::Spin, arm: Self::Vector) -> Self::Vector;
+    /// Vector product of an arm and a force: the torque of the force.
+    fn moment(arm: Self::Vector, force: Self::Vector) -> Self::Spin;
     /// Tangential part of `velocity` - `turning` x `normal`, where `along` is the part of `velocity` along
     /// the normal.
     fn slip(

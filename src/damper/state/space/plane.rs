@@ -111,6 +111,11 @@ impl Space for Plane {
     }
 
     #[inline(always)]
+    fn moment(arm: DVec2, force: DVec2) -> f64 {
+        arm.perp_dot(force)
+    }
+
+    #[inline(always)]
     fn slip(normal: DVec2, velocity: DVec2, _along: f64, turning: f64) -> f64 {
         normal.perp_dot(velocity) - turning
     }

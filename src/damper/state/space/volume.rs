@@ -109,6 +109,11 @@ impl Space for Volume {
     }
 
     #[inline(always)]
+    fn moment(arm: DVec3, force: DVec3) -> DVec3 {
+        arm.cross(force)
+    }
+
+    #[inline(always)]
     fn slip(normal: DVec3, velocity: DVec3, along: f64, turning: DVec3) -> DVec3 {
         velocity - normal * along - turning.cross(normal)
     }
