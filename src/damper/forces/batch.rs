@@ -406,19 +406,21 @@ impl<L: ForceLaw> Batch<L> {
     /// Has `law` answer once more where bodies may have met or may part within the step.
     /// `acceleration` is that of a contact's first centre relative to its second body, as it was
     /// evaluated last (m/s^2).
-    pub(super) fn correct_onsets<K: ContactKind, const END: bool>(
+    pub(super) fn correct_onsets<K: ContactKind, S: Space, const END: bool>(
         &mut self,
         law: &L,
         only: Option<&L::Coefficients>,
         step_time: StepTime,
         acceleration: impl Fn(usize) -> DVec3,
     ) {
+        let time_step = step_time.time_step;
         for n in 0..self.count.min(BATCH_SIZE) {
-            if Onset::is_near(self.overlap[n], self.approach[n], step_time.time_step) {
-                let kind = only.copied().unwrap_or_else(|| self.kinds[n]);
-                let (contact, answer, memory) =
-                    self.evaluate_contact::<K>(law, &kind, n, step_time, acceleration(n));
-                self.store::<K, Volume, true>(n, contact.normal, &answer);
+            if Onset::is_near(self.overlap[n], self.approach[n], time_step) {
+                let kind = only.unwrap_or_else(|| &self.kinds[n]);
+                let contact = self.contact::<K, S>(n, step_time);
+                let onset = Onset::new(time_step, acceleration(n).dot(contact.normal));
+                let (answer, memory) = law.at_onset(kind, &contact, &self.memory[n], &onset);
+                self.store::<K, S, true>(n, contact.normal, &answer);
                 if END {
                     self.advanced[n] = memory;
                 }

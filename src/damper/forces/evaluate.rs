@@ -235,7 +235,7 @@ fn evaluate_pairs<C: Cavity, L: ForceLaw, S: Space, const END: bool>(
     batch.evaluate::<SpherePair, S, END>(view.law, only, kinds, view.step_time);
     if view.law.corrects_onset() {
         let acceleration = |n: usize| view.acceleration_of_pair(bodies[n]);
-        batch.correct_onsets::<SpherePair, END>(view.law, only, view.step_time, acceleration);
+        batch.correct_onsets::<SpherePair, S, END>(view.law, only, view.step_time, acceleration);
     }
     if END {
         list.store_memories(run, view.stamp.wrapping_add(1), batch.advanced());
@@ -262,7 +262,7 @@ fn evaluate_walls<C: Cavity, L: ForceLaw, S: Space, const END: bool>(
     if view.law.corrects_onset() {
         let acceleration =
             |n: usize| view.acceleration_at_wall(bodies[n][0] as usize, bodies[n][1]);
-        batch.correct_onsets::<SphereWall, END>(view.law, only, view.step_time, acceleration);
+        batch.correct_onsets::<SphereWall, S, END>(view.law, only, view.step_time, acceleration);
     }
     if END {
         list.store_memories(run, view.stamp.wrapping_add(1), batch.advanced());
