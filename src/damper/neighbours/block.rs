@@ -139,10 +139,11 @@ impl<L: ContactLaw> Block<L> {
             }
         }
 
-        self.walls.find(|i, wall, touching| {
-            let position = view.position.get(i);
-            view.wall_point(wall, position).distance < touching + prediction_distance
-        });
+        if view.planar {
+            find_walls::<C, L, Plane>(view, &mut self.walls, prediction_distance);
+        } else {
+            find_walls::<C, L, Volume>(view, &mut self.walls, prediction_distance);
+        }
         trusted
     }
 
@@ -216,11 +217,34 @@ fn find_pairs<C, L: ContactLaw, S: Space>(
     prediction_distance: f64,
 ) {
     let position = &S::rows(view.position.flat())[..view.radius.len()];
+    let nearer = |[i, j]: [u32; 2], square: f64| {
+        let apart = S::from_row(position[i as usize]) - S::from_row(position[j as usize]);
+        S::dot(apart, apart) < square
+    };
 
-    list.find(|i, j, touching| {
-        let limit = touching + prediction_distance;
-        let apart = S::from_row(position[i]) - S::from_row(position[j as usize]);
-        S::dot(apart, apart) < limit * limit
+    if let Some(radius) = view.coefficients.only_radius() {
+        let limit = radius + radius + prediction_distance;
+        let square = limit * limit;
+        list.find_alike(|bodies| nearer(bodies, square));
+    } else {
+        list.find(|bodies, touching| {
+            let limit = touching + prediction_distance;
+            nearer(bodies, limit * limit)
+        });
+    }
+}
+
+/// Lists the walls in contact.
+#[inline(always)]
+fn find_walls<C: Cavity, L: ContactLaw, S: Space>(
+    view: &StateView<'_, C, L>,
+    list: &mut NeighbourList<L>,
+    prediction_distance: f64,
+) {
+    let position = S::rows(view.position.flat());
+    list.find(|[i, wall], touching| {
+        let position = S::in_space(S::from_row(position[i as usize]));
+        view.wall_point(wall, position).distance < touching + prediction_distance
     });
 }
 

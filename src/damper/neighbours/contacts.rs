@@ -50,24 +50,19 @@ impl Contacts {
         fit(&mut self.candidates, candidates + 1, 0);
     }
 
-    /// Lists those of all candidates that touch.
+    /// Lists those of all candidates that touch: of each there are its bodies, and whether they do.
     #[inline(always)]
-    pub(super) fn find<T: Copy>(
-        &mut self,
-        all: &[T],
-        bodies_of: impl Fn(T) -> [u32; 2],
-        touches: impl Fn(T) -> bool,
-    ) {
+    pub(super) fn find(&mut self, all: impl Iterator<Item = ([u32; 2], bool)>) {
         let Self {
             bodies, candidates, ..
         } = self;
         let candidates = &mut candidates[..bodies.len()];
         let mut count = 0;
-        for (index, own) in (0..).zip(all) {
+        for (index, (own, touches)) in (0..).zip(all) {
             // Written before it is known whether it counts: no branch to mispredict.
-            bodies[count] = bodies_of(*own);
+            bodies[count] = own;
             candidates[count] = index;
-            count += usize::from(touches(*own));
+            count += usize::from(touches);
         }
         self.count = count;
     }

@@ -12,22 +12,14 @@ use super::memories::Memories;
 use crate::damper::state::{Coefficients, StateView};
 use crate::law::{ContactLaw, ContactMemory, LawError};
 
-/// Two bodies that might touch.
-#[derive(Debug, Clone, Copy)]
-struct Candidate {
-    /// Index of the first body.
-    first: u32,
-    /// Index of the second body, or number of the wall.
-    second: u32,
-    /// Distance at which they touch, m: of two centres, or of a centre and a wall.
-    touching: f64,
-}
-
 /// Candidates in ascending order of their two bodies. This is the order in which contacts are
 /// evaluated, whoever proposed them.
 #[derive(Clone)]
 pub(crate) struct NeighbourList<L: ContactLaw> {
-    list: Vec<Candidate>,
+    /// Index of the first body of each; index of the second, or number of the wall.
+    bodies: Vec<[u32; 2]>,
+    /// Distance at which they touch, m: of two centres, or of a centre and a wall.
+    touching: Vec<f64>,
     memories: Memories<ContactMemory<L>>,
     /// One each, if the law has to be asked pair by pair; else empty.
     prepared: Vec<L::Coefficients>,
@@ -37,7 +29,8 @@ pub(crate) struct NeighbourList<L: ContactLaw> {
 impl<L: ContactLaw> Default for NeighbourList<L> {
     fn default() -> Self {
         Self {
-            list: Vec::new(),
+            bodies: Vec::new(),
+            touching: Vec::new(),
             memories: Memories::default(),
             prepared: Vec::new(),
             contacts: Contacts::default(),
@@ -48,7 +41,8 @@ impl<L: ContactLaw> Default for NeighbourList<L> {
 impl<L: ContactLaw> NeighbourList<L> {
     /// Empties the list.
     pub(crate) fn clear(&mut self) {
-        self.list.clear();
+        self.bodies.clear();
+        self.touching.clear();
         self.contacts.clear();
     }
 
@@ -61,11 +55,11 @@ impl<L: ContactLaw> NeighbourList<L> {
         if !Memories::<ContactMemory<L>>::ANY {
             return;
         }
-        for (index, candidate) in (0..).zip(&self.list) {
+        for (index, [first, second]) in self.all() {
             if let Some(memory) = self.memory_of(index, stamp) {
                 history.push(ContactRecord {
-                    first: candidate.first,
-                    second: candidate.second,
+                    first,
+                    second,
                     memory: *memory,
                 });
             }
@@ -79,12 +73,14 @@ impl<L: ContactLaw> NeighbourList<L> {
 
     /// Makes room for candidates.
     pub(crate) fn reserve(&mut self, candidates: usize) {
-        make_room(&mut self.list, candidates);
+        make_room(&mut self.bodies, candidates);
+        make_room(&mut self.touching, candidates);
     }
 
     /// Makes room for whatever comes of `candidates`.
     pub(crate) fn reserve_all(&mut self, candidates: usize) {
-        make_room(&mut self.list, candidates);
+        make_room(&mut self.bodies, candidates);
+        make_room(&mut self.touching, candidates);
         self.contacts.reserve(candidates);
         self.memories.reserve(candidates);
     }
@@ -92,11 +88,8 @@ impl<L: ContactLaw> NeighbourList<L> {
     /// Adds a candidate. Pairs come in ascending order of their indices, the lower one first; walls in
     /// ascending order of index and wall.
     pub(crate) fn push(&mut self, first: u32, second: u32, touching: f64) {
-        self.list.push(Candidate {
-            first,
-            second,
-            touching,
-        });
+        self.bodies.push([first, second]);
+        self.touching.push(touching);
     }
 
     /// Makes a finished list ready: gives its contacts their memory back, which `history` holds in
@@ -107,15 +100,15 @@ impl<L: ContactLaw> NeighbourList<L> {
         history: &[ContactRecord<ContactMemory<L>>],
         key: impl Fn(u32, u32) -> (u32, u32),
     ) {
-        let count = self.list.len();
+        let count = self.bodies.len();
         self.contacts.fit(count);
         if !Memories::<ContactMemory<L>>::ANY {
             return;
         }
         self.memories.forget(count, history.len(), stamp);
         let mut history = history.iter().peekable();
-        for (index, candidate) in self.list.iter().enumerate() {
-            let own = key(candidate.first, candidate.second);
+        for (index, [first, second]) in self.bodies.iter().enumerate() {
+            let own = key(*first, *second);
             let of = |contact: &ContactRecord<ContactMemory<L>>| key(contact.first, contact.second);
             while history.next_if(|contact| of(contact) < own).is_some() {}
             if let Some(contact) = history.next_if(|contact| of(contact) == own) {
@@ -133,9 +126,8 @@ impl<L: ContactLaw> NeighbourList<L> {
     ) -> Result<(), LawError> {
         self.prepared.clear();
         if coefficients.is_by_pair() {
-            for candidate in &self.list {
-                let first = species[candidate.first as usize];
-                let second = species[candidate.second as usize];
+            for bodies in &self.bodies {
+                let [first, second] = bodies.map(|index| species[index as usize]);
                 self.prepared
                     .push(coefficients.prepare(law, first, second)?);
             }
@@ -145,24 +137,29 @@ impl<L: ContactLaw> NeighbourList<L> {
 
     /// How many candidates there are.
     pub(crate) const fn len(&self) -> usize {
-        self.list.len()
+        self.bodies.len()
     }
 
     /// The places of all candidates, and their bodies.
     pub(crate) fn all(&self) -> impl Iterator<Item = (u32, [u32; 2])> {
-        let bodies = self.list.iter().map(|own| [own.first, own.second]);
-        (0..).zip(bodies)
+        (0..).zip(self.bodies.iter().copied())
     }
 
-    /// Lists the candidates that are in contact, as `touches` tells of both and of the distance at which
-    /// they touch (m).
+    /// Lists the candidates that are in contact, as `touches` tells of both bodies and of the distance at
+    /// which they touch (m).
     #[inline(always)]
-    pub(crate) fn find(&mut self, touches: impl Fn(usize, u32, f64) -> bool) {
-        self.contacts.find(
-            &self.list,
-            |own| [own.first, own.second],
-            |own| touches(own.first as usize, own.second, own.touching),
-        );
+    pub(crate) fn find(&mut self, touches: impl Fn([u32; 2], f64) -> bool) {
+        let all = self.bodies.iter().zip(&self.touching);
+        self.contacts
+            .find(all.map(|(bodies, touching)| (*bodies, touches(*bodies, *touching))));
+    }
+
+    /// The same where the distance is one for all.
+    #[inline(always)]
+    pub(crate) fn find_alike(&mut self, touches: impl Fn([u32; 2]) -> bool) {
+        let all = self.bodies.iter();
+        self.contacts
+            .find(all.map(|bodies| (*bodies, touches(*bodies))));
     }
 
     /// The law's own coefficients of a candidate, if it was asked pair by pair.
@@ -232,7 +229,8 @@ impl<L: ContactLaw> NeighbourList<L> {
 
     /// Memory in bytes that the list has reserved.
     pub(crate) fn reserved_bytes(&self) -> usize {
-        size_of::<Candidate>() * self.list.capacity()
+        size_of::<[u32; 2]>() * self.bodies.capacity()
+            + size_of::<f64>() * self.touching.capacity()
             + size_of::<L::Coefficients>() * self.prepared.capacity()
             + self.memories.reserved_bytes()
             + self.contacts.reserved_bytes()
