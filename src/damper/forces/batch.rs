@@ -235,7 +235,7 @@ impl<L: ForceLaw> Batch<L> {
             let (centre, radius) = (columns.centre(index), columns.radius[index]);
             let position = S::in_space(centre.position);
             let compartment = view.compartment_of_wall(*wall);
-            let point = compartment.wall(*wall, position);
+            let point = view.wall_point(*wall, position);
             let normal = S::flattened(point.normal);
             // Where the sphere's surface would be: there the wall moves as it turns.
             let touch = || position - normal * radius;
