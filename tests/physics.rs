@@ -1,4 +1,4 @@
-//! What a bed does: mechanics, energy, laws, fillings and responses.
+//! What a bed does: mechanics, energy, laws and fillings.
 //!
 //! One program, so that what several files build dampers of is compiled once.
 
@@ -18,8 +18,6 @@ mod ledger;
 mod mechanics;
 #[path = "physics/mixed.rs"]
 mod mixed;
-#[path = "physics/response.rs"]
-mod response;
 #[path = "physics/rolling.rs"]
 mod rolling;
 #[path = "physics/rotation.rs"]

@@ -1,7 +1,7 @@
 //! Response curves against closed forms, and against a reference computed independently: RMS of the
 //! displacement over F/K of the paper's system, strict law, Runge-Kutta, 20 microseconds.
 //!
-//! All points of Fig. 11 take minutes: `cargo test --release --test physics -- --ignored response`.
+//! All points of Fig. 11 take minutes: `cargo test --release --test response -- --ignored`.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -300,12 +300,3 @@ fn every_point_of_the_papers_figure_11() {
         assert!((peaks[0].0 - peaks[1].0).abs() < 0.1, "{peaks:?}");
     }
 }
-
-#[path = "response/fields.rs"]
-mod fields;
-#[path = "response/structures.rs"]
-mod structures;
-#[path = "response/surety.rs"]
-mod surety;
-#[path = "response/sweeps.rs"]
-mod sweeps;
