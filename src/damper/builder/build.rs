@@ -1,6 +1,6 @@
 //! From a builder to a damper.
 
-use super::check::{cavity_limits, check_counts, check_numbers, check_particles};
+use super::check::check;
 use super::time_step::{choose_time_step, contacts_bear};
 use super::{BuildError, Builder, Settings};
 use crate::cavity::Cavity;
@@ -88,14 +88,7 @@ fn assemble<C: Cavity, L: ContactLaw>(
     parts: &mut Parts<'_>,
 ) -> Result<Engine<C, L>, BuildError> {
     let mount = parts.mount;
-    let flat = cavities.iter().any(Cavity::is_planar);
-    check_numbers(&settings, flat)?;
-    if let Some(jump) = mount.jump() {
-        return Err(BuildError::BaseJumps(jump));
-    }
-    let walls = check_counts(&settings.particles, &cavities)?;
-    let limits = cavity_limits(&cavities);
-    check_particles(&settings.particles, &limits, settings.initial_overlap)?;
+    let walls = check(&settings, &cavities, mount)?;
     let numbers = order_by_cavity(&mut settings.particles);
     let planar = cavities.iter().all(Cavity::is_planar);
     let particles = Particles::new(&settings.particles, numbers, planar);

@@ -6,13 +6,30 @@ use super::{BuildError, Settings};
 use crate::cavity::Cavity;
 use crate::damper::neighbours::BLOCK;
 use crate::error::{Bound, ValueError};
+use crate::mount::Mount;
 use crate::particle::Particle;
 
 /// The most walls: each block of particles keeps a sum for each.
 const MOST_WALLS: u64 = 1 << 20;
 
+/// Refuses what cannot be of numbers, cavities, particles and what drives the `mount`; the number of walls.
+pub(super) fn check<C: Cavity>(
+    settings: &Settings,
+    cavities: &[C],
+    mount: &dyn Mount,
+) -> Result<usize, BuildError> {
+    check_numbers(settings, cavities.iter().any(Cavity::is_planar))?;
+    if let Some(jump) = mount.jump() {
+        return Err(BuildError::BaseJumps(jump));
+    }
+    let walls = check_counts(&settings.particles, cavities)?;
+    let limits = cavity_limits(cavities);
+    check_particles(&settings.particles, &limits, settings.initial_overlap)?;
+    Ok(walls)
+}
+
 /// Refuses numbers that cannot be.
-pub(super) fn check_numbers(settings: &Settings, planar: bool) -> Result<(), BuildError> {
+fn check_numbers(settings: &Settings, planar: bool) -> Result<(), BuildError> {
     for component in settings.gravity.to_array() {
         Bound::Finite.check("gravity (m/s^2)", component)?;
     }
@@ -33,10 +50,7 @@ pub(super) fn check_numbers(settings: &Settings, planar: bool) -> Result<(), Bui
 }
 
 /// Refuses more particles or walls than can be numbered; the number of walls.
-pub(super) fn check_counts<C: Cavity>(
-    particles: &[Particle],
-    cavities: &[C],
-) -> Result<usize, BuildError> {
+fn check_counts<C: Cavity>(particles: &[Particle], cavities: &[C]) -> Result<usize, BuildError> {
     let limit = u32::MAX as usize - BLOCK;
     if particles.len() > limit {
         return Err(BuildError::TooManyParticles {
@@ -56,7 +70,7 @@ pub(super) fn check_counts<C: Cavity>(
 }
 
 /// What a cavity bears.
-pub(super) struct CavityLimits {
+struct CavityLimits {
     planar: bool,
     /// The least width of its bounds, m.
     extent: f64,
@@ -65,7 +79,7 @@ pub(super) struct CavityLimits {
 }
 
 /// What each of `cavities` bears.
-pub(super) fn cavity_limits<C: Cavity>(cavities: &[C]) -> Vec<CavityLimits> {
+fn cavity_limits<C: Cavity>(cavities: &[C]) -> Vec<CavityLimits> {
     let limits = |cavity: &C| {
         let planar = cavity.is_planar();
         let [low, high] = cavity.bounds();
@@ -84,7 +98,7 @@ pub(super) fn cavity_limits<C: Cavity>(cavities: &[C]) -> Vec<CavityLimits> {
 }
 
 /// Refuses particles that cannot be, or not in their cavity.
-pub(super) fn check_particles(
+fn check_particles(
     particles: &[Particle],
     limits: &[CavityLimits],
     initial_overlap: f64,
