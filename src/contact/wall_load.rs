@@ -11,14 +11,6 @@ pub struct WallLoad {
 }
 
 impl WallLoad {
-    /// Adds the reaction to `force` on a particle, with the couple `couple` besides, at `arm` from
-    /// the container's origin.
-    #[inline]
-    pub(crate) fn react(&mut self, force: DVec3, couple: DVec3, arm: DVec3) {
-        self.force -= force;
-        self.torque -= arm.cross(force) + couple;
-    }
-
     pub(crate) fn add(&mut self, other: &Self) {
         self.force += other.force;
         self.torque += other.torque;

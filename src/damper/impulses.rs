@@ -164,7 +164,7 @@ impl<S: Space> ImpulseSolver<S> {
         state.place_containers(parts.mount, state.time)?;
         self.predict(&step, state, parts.mount)?;
         std::mem::swap(&mut state.particles.position, &mut self.predicted);
-        let found = self.find_constraints(&step, model, state, (neighbours, parts.detectors));
+        let found = self.find_constraints(&step, model, state, neighbours, parts.detectors);
         std::mem::swap(&mut state.particles.position, &mut self.predicted);
         found?;
         self.list_coupled();
@@ -189,7 +189,8 @@ impl<S: Space> ImpulseSolver<S> {
         step: &SolverStep,
         model: &Model<C, L>,
         state: &State,
-        (neighbours, detectors): (&mut Neighbours<L>, &mut dyn Detectors),
+        neighbours: &mut Neighbours<L>,
+        detectors: &mut dyn Detectors,
     ) -> Result<(), StepError> {
         neighbours.set_prediction_distance(state, detectors, self.prediction_distance)?;
         neighbours.find_contacts(model, state, detectors, true)?;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::engine::Engine;
-use super::state::{MountCoordinates, State};
+use super::state::MountCoordinates;
 use crate::cavity::Cavity;
 use crate::contact::WallLoad;
 use crate::law::ContactLaw;
@@ -14,63 +14,58 @@ use crate::particle::Particle;
 /// A damper between steps, to be looked at.
 pub(crate) struct Observed<'a, C, L: ContactLaw> {
     engine: &'a Engine<C, L>,
-    state: &'a State,
     mount: &'a dyn Mount,
 }
 
 impl<'a, C, L: ContactLaw> Observed<'a, C, L> {
     pub(crate) const fn new(engine: &'a Engine<C, L>, mount: &'a dyn Mount) -> Self {
-        let state = &engine.state;
-        Self {
-            engine,
-            state,
-            mount,
-        }
+        Self { engine, mount }
     }
 }
 
 impl<C: Cavity, L: ContactLaw> Observable for Observed<'_, C, L> {
     fn count(&self) -> usize {
-        self.state.particles.len()
+        self.engine.state.particles.len()
     }
 
     fn particle(&self, number: usize) -> Option<Particle> {
-        let index = *self.state.particles.index_of.get(number)? as usize;
-        let cavity = self.state.cavity_of(index) as u32;
-        Some(self.state.particles.particle(index, cavity))
+        let index = *self.engine.state.particles.index_of.get(number)? as usize;
+        let cavity = self.engine.state.cavity_of(index) as u32;
+        Some(self.engine.state.particles.particle(index, cavity))
     }
 
     fn cavities(&self) -> usize {
-        self.state.compartments.len()
+        self.engine.state.compartments.len()
     }
 
     fn container(&self, cavity: usize) -> Option<Motion> {
         (cavity < self.cavities()).then(|| {
-            let [x, v] = self.state.mount_state();
-            let motion = self.mount.motion(self.state.time, x, v, cavity);
+            let [x, v] = self.engine.state.mount_state();
+            let motion = self.mount.motion(self.engine.state.time, x, v, cavity);
             motion.normalized().unwrap_or(motion)
         })
     }
 
     fn load(&self, cavity: usize) -> Option<Load> {
-        self.state.loads.get(cavity).copied()
+        self.engine.state.loads.get(cavity).copied()
     }
 
     fn impulse(&self, cavity: usize) -> Option<DVec3> {
-        let sums = &self.state.mount_coordinates.velocity[self.state.degrees..];
-        let before = MountCoordinates::impulse_among(&self.state.step_start.impulses, cavity)?;
+        let sums = &self.engine.state.mount_coordinates.velocity[self.engine.state.degrees..];
+        let before =
+            MountCoordinates::impulse_among(&self.engine.state.step_start.impulses, cavity)?;
         Some(MountCoordinates::impulse_among(sums, cavity)? - before)
     }
 
     fn walls(&self, cavity: usize) -> u32 {
-        let compartment = self.state.compartments.get(cavity);
+        let compartment = self.engine.state.compartments.get(cavity);
         compartment.map_or(0, |compartment| compartment.walls)
     }
 
     fn wall_load(&self, cavity: usize, wall: u32) -> Option<WallLoad> {
-        let compartment = self.state.compartments.get(cavity)?;
+        let compartment = self.engine.state.compartments.get(cavity)?;
         let load = (compartment.first_wall + wall) as usize;
-        (wall < compartment.walls).then(|| self.state.wall_loads[load])
+        (wall < compartment.walls).then(|| self.engine.state.wall_loads[load])
     }
 
     fn wall_name(&self, cavity: usize, wall: u32) -> Option<&str> {
@@ -79,24 +74,24 @@ impl<C: Cavity, L: ContactLaw> Observable for Observed<'_, C, L> {
     }
 
     fn coordinates(&self) -> &[f64] {
-        self.state.mount_state()[0]
+        self.engine.state.mount_state()[0]
     }
 
     fn rates(&self) -> &[f64] {
-        self.state.mount_state()[1]
+        self.engine.state.mount_state()[1]
     }
 
     fn mount_energy(&self) -> MountEnergy {
-        let [x, v] = self.state.mount_state();
-        self.mount.energy(self.state.time, x, v)
+        let [x, v] = self.engine.state.mount_state();
+        self.mount.energy(self.engine.state.time, x, v)
     }
 
     fn gravity(&self) -> DVec3 {
-        self.state.gravity
+        self.engine.state.gravity
     }
 
     fn holds_forces(&self) -> bool {
-        self.state.holds_forces
+        self.engine.state.holds_forces
     }
 
     fn contacts(&self) -> usize {

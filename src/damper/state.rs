@@ -32,7 +32,7 @@ pub(crate) use coefficients::Coefficients;
 pub(crate) use compartment::Compartment;
 pub(crate) use containers::checked;
 pub(crate) use diagnosis::StepStart;
-pub(crate) use geometry::{force_and_torques, levers, normal_and_overlap, surface_velocity};
+pub(crate) use geometry::{force_and_torques, levers, normal_and_overlap, react, surface_velocity};
 pub(crate) use model::Model;
 pub(crate) use mount_coordinates::MountCoordinates;
 pub(crate) use particles::Particles;
@@ -123,9 +123,6 @@ impl State {
     /// The mount's own coordinates, and their rates.
     #[inline]
     pub(crate) fn mount_state(&self) -> [&[f64]; 2] {
-        let MountCoordinates {
-            position, velocity, ..
-        } = &self.mount_coordinates;
-        [&position[..self.degrees], &velocity[..self.degrees]]
+        self.mount_coordinates.own(self.degrees)
     }
 }

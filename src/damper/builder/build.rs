@@ -48,15 +48,14 @@ where
             observer: &mut (),
         };
         let engine = assemble(self.cavities, self.law, self.settings, &mut parts)?;
-        let time_step = engine.state.time_step;
         Ok(Damper {
-            setup: Setup::new(&engine.model, &engine.state, time_step),
+            setup: Setup::new(&engine.model, &engine.state),
+            time_step: engine.state.time_step,
             engine,
             mount: self.mount,
             detectors,
             integrator: self.integrator,
             clock: Clock::showing(start_time),
-            time_step,
         })
     }
 }
@@ -97,7 +96,7 @@ fn assemble<C: Cavity, L: ContactLaw>(
     let mount_coordinates = MountCoordinates::new(mount, cavities.len());
     let smallest = particles.smallest_radius;
     let degrees = mount.degrees();
-    let own = [&mount_coordinates.position, &mount_coordinates.velocity].map(|own| &own[..degrees]);
+    let own = mount_coordinates.own(degrees);
     let mobilities = Mobilities::new(mount, settings.start_time, own, cavities.len());
     let margins = |cavity| {
         if smallest.is_finite() {

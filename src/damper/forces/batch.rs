@@ -413,13 +413,11 @@ impl<L: ForceLaw> Batch<L> {
         step_time: StepTime,
         acceleration: impl Fn(usize) -> DVec3,
     ) {
-        let time_step = step_time.time_step;
         for n in 0..self.count.min(BATCH_SIZE) {
-            if Onset::is_near(self.overlap[n], self.approach[n], time_step) {
+            if self.is_near_onset(n, step_time) {
                 let kind = only.unwrap_or_else(|| &self.kinds[n]);
-                let contact = self.contact::<K, S>(n, step_time);
-                let onset = Onset::new(time_step, acceleration(n).dot(contact.normal));
-                let (answer, memory) = law.at_onset(kind, &contact, &self.memory[n], &onset);
+                let (contact, answer, memory) =
+                    self.at_onset::<K, S>(law, kind, n, step_time, acceleration(n));
                 self.store::<K, S, true>(n, contact.normal, &answer);
                 if END {
                     self.advanced[n] = memory;
@@ -428,8 +426,30 @@ impl<L: ForceLaw> Batch<L> {
         }
     }
 
-    /// A contact, the answer of the `law` with coefficients `kind`, and what the contact remembers
-    /// at the end of the step.
+    /// Whether the bodies of a contact may have met or may part within the step.
+    #[inline(always)]
+    const fn is_near_onset(&self, n: usize, step_time: StepTime) -> bool {
+        Onset::is_near(self.overlap[n], self.approach[n], step_time.time_step)
+    }
+
+    /// Such a contact, the answer of the `law` with coefficients `kind`, and what the contact remembers at the
+    /// end of the step.
+    #[inline(always)]
+    fn at_onset<K: ContactKind, S: Space>(
+        &self,
+        law: &L,
+        kind: &L::Coefficients,
+        n: usize,
+        step_time: StepTime,
+        acceleration: DVec3,
+    ) -> (Contact, ContactForce, ContactMemory<L>) {
+        let contact = self.contact::<K, S>(n, step_time);
+        let onset = Onset::new(step_time.time_step, acceleration.dot(contact.normal));
+        let (answer, memory) = law.at_onset(kind, &contact, &self.memory[n], &onset);
+        (contact, answer, memory)
+    }
+
+    /// The same of any contact.
     pub(super) fn evaluate_contact<K: ContactKind>(
         &self,
         law: &L,
@@ -438,14 +458,10 @@ impl<L: ForceLaw> Batch<L> {
         step_time: StepTime,
         acceleration: DVec3,
     ) -> (Contact, ContactForce, ContactMemory<L>) {
-        let time_step = step_time.time_step;
-        let (contact, memory) = (self.contact::<K, Volume>(n, step_time), &self.memory[n]);
-        let (overlap, approach) = (contact.overlap, contact.approach_speed());
-        if law.corrects_onset() && Onset::is_near(overlap, approach, time_step) {
-            let onset = Onset::new(time_step, acceleration.dot(contact.normal));
-            let (answer, memory) = law.at_onset(kind, &contact, memory, &onset);
-            return (contact, answer, memory);
+        if law.corrects_onset() && self.is_near_onset(n, step_time) {
+            return self.at_onset::<K, Volume>(law, kind, n, step_time, acceleration);
         }
+        let (contact, memory) = (self.contact::<K, Volume>(n, step_time), &self.memory[n]);
         let answer = law.force(kind, &contact, memory);
         (contact, answer, law.advance(kind, &contact, memory))
     }

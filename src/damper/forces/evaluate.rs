@@ -13,7 +13,7 @@ use super::sums::Sums;
 use crate::cavity::Cavity;
 use crate::contact::{Partner, WallLoad};
 use crate::damper::neighbours::{Block, ContactId, NeighbourList, make_room};
-use crate::damper::state::{Plane, Space, StateView, Volume};
+use crate::damper::state::{Plane, Space, StateView, Volume, react};
 use crate::law::{ContactLaw, ForceLaw};
 use crate::observer::Observer;
 
@@ -195,16 +195,6 @@ impl<L: ForceLaw> BlockForces<L> {
         }
         deepest
     }
-}
-
-/// Adds to the load on a wall the reaction to `push` on a particle, with the couple `turn` besides, at `arm`
-/// from the container's origin.
-#[inline(always)]
-fn react<S: Space>(load: &mut WallLoad, push: DVec3, turn: DVec3, arm: S::Vector) {
-    let push = S::vector(push);
-    load.force = S::in_space(S::vector(load.force) - push);
-    let torque = S::moment(arm, push) + S::spin(turn);
-    load.torque = S::spin_in_space(S::spin(load.torque) - torque);
 }
 
 /// Runs of at most [`BATCH_SIZE`] contacts, one after the other.

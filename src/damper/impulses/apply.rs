@@ -4,7 +4,7 @@
 use super::{ImpulseSolver, SolverStep};
 use crate::contact::{ContactForce, HeldForce, WallLoad};
 use crate::damper::neighbours::{Block, NeighbourList};
-use crate::damper::state::{Space, State};
+use crate::damper::state::{Space, State, react};
 use crate::law::ImpulseLaw;
 use crate::numbers::at_most;
 use crate::step_error::StepError;
@@ -58,7 +58,8 @@ impl<S: Space> ImpulseSolver<S> {
             let place = self.predicted.get(index) - self.containers.each[cavity].origin + arm;
             let push = normal * force.normal + force.tangential;
             let wall = self.infos[number].wall as usize;
-            state.wall_loads[wall].react(push, force.couple, place);
+            let load = &mut state.wall_loads[wall];
+            react::<S>(load, push, force.couple, S::vector(place));
         }
     }
 

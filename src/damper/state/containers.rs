@@ -1,6 +1,6 @@
 //! The containers: where the mount has them, and what the particles do to it.
 
-use super::{MountCoordinates, State};
+use super::State;
 use crate::mount::{Motion, Mount};
 use crate::step_error::StepError;
 
@@ -11,8 +11,7 @@ impl State {
         mount: &dyn Mount,
         time: f64,
     ) -> Result<(), StepError> {
-        let coordinates = &self.mount_coordinates.position[..self.degrees];
-        let velocities = &self.mount_coordinates.velocity[..self.degrees];
+        let [coordinates, velocities] = self.mount_coordinates.own(self.degrees);
         let mut both = coordinates.iter().zip(velocities);
         if let Some(coordinate) = both.position(|(x, v)| !(x.is_finite() && v.is_finite())) {
             return Err(StepError::Mount {
@@ -62,10 +61,7 @@ impl State {
         if !self.mobilities.turn() {
             return;
         }
-        let MountCoordinates {
-            position, velocity, ..
-        } = &self.mount_coordinates;
-        let own = [&position[..self.degrees], &velocity[..self.degrees]];
+        let own = self.mount_coordinates.own(self.degrees);
         self.mobilities.update(mount, self.time, own);
         for (cavity, compartment) in self.compartments.iter_mut().enumerate() {
             compartment.set_mobility(&self.mobilities.own(cavity));

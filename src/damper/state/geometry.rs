@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use super::space::Space;
-use crate::contact::ContactForce;
+use crate::contact::{ContactForce, WallLoad};
 
 /// Normal, and overlap in m, of two spheres whose centres are `towards` apart, from the second to the
 /// first. Coincident centres have no normal and feel no force.
@@ -55,4 +55,14 @@ pub(crate) fn force_and_torques<S: Space, const COUPLE: bool>(
         second -= answer.couple;
     }
     (normal * answer.normal + tangential, [first, second])
+}
+
+/// Adds to the load on a wall the reaction to `push` on a particle, with the couple `couple` besides, at `arm`
+/// from the container's origin.
+#[inline(always)]
+pub(crate) fn react<S: Space>(load: &mut WallLoad, push: DVec3, couple: DVec3, arm: S::Vector) {
+    let push = S::vector(push);
+    load.force = S::in_space(S::vector(load.force) - push);
+    let torque = S::moment(arm, push) + S::spin(couple);
+    load.torque = S::spin_in_space(S::spin(load.torque) - torque);
 }

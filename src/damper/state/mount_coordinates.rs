@@ -37,6 +37,12 @@ impl MountCoordinates {
         state
     }
 
+    /// The mount's own coordinates, of which there are `degrees`, and their rates.
+    #[inline]
+    pub(crate) fn own(&self, degrees: usize) -> [&[f64]; 2] {
+        [&self.position[..degrees], &self.velocity[..degrees]]
+    }
+
     /// Starts the sums afresh, with the containers' origins at `origins`. The mount has `degrees`
     /// coordinates.
     pub(crate) fn reset_impulses(&mut self, degrees: usize, origins: impl Iterator<Item = DVec3>) {

@@ -31,12 +31,8 @@ impl Setup {
         }
     }
 
-    /// The setup of `state`, as it was built, under a `model` and steps of `time_step` (s).
-    pub(crate) fn new<C: Cavity, L: ContactLaw>(
-        model: &Model<C, L>,
-        state: &State,
-        time_step: f64,
-    ) -> Self {
+    /// The setup of `state`, as it was built, under a `model`.
+    pub(crate) fn new<C: Cavity, L: ContactLaw>(model: &Model<C, L>, state: &State) -> Self {
         let mut cavities = Digest::default();
         let mut mount = Digest::default();
         cavities.word(model.cavities.len() as u64);
@@ -51,7 +47,7 @@ impl Setup {
             cavities.words(&state.particles.id);
         }
         Self {
-            time_step,
+            time_step: state.time_step,
             gravity: state.gravity,
             kinds: of_kinds(&state.particles.kinds),
             cavities,
