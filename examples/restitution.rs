@@ -11,7 +11,7 @@
 //! takes such a step, and says what a simulated second costs.
 
 #[allow(dead_code)] // Shared with the validation, of which this uses a part.
-#[path = "../tests/validation/cases.rs"]
+#[path = "validation/cases/mod.rs"]
 mod cases;
 
 use cases::restitution::{ASKED, Bodies, Deviation, FORMS, of_both_laws};

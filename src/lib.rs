@@ -90,7 +90,7 @@
 //!
 //! # Goals, in this order
 //!
-//! 1. Right: theory and published tests are met to the digits they give (`tests/validation`).
+//! 1. Right: theory and published tests are met to the digits they give (`examples/validation`).
 //! 2. The same bits from run to run, whichever detector, however many threads, after a restore, and on
 //!    every platform whose `f64` is that of IEEE 754.
 //! 3. Fast.

@@ -94,7 +94,7 @@
 //! [0.7 radii](crate::Builder::overlap_limit). To be rerun with
 //! `cargo test --release --test physics -- --ignored --nocapture coarse_law::responses`.
 //!
-//! What the crate itself is checked against, with sources and tolerances: `tests/validation/`. Which
+//! What the crate itself is checked against, with sources and tolerances: `examples/validation/`. Which
 //! bits stay the same: same inputs, same bits, whatever the detector, the number of threads, and
 //! whether a run was interrupted by a [`Snapshot`](crate::Snapshot); and on every platform whose `f64` is
 //! that of IEEE 754 (not 32-bit x86 without SSE2), as the sines and powers come from the `libm` crate and

@@ -2,14 +2,15 @@
 //! plots that are compared by eye.
 //!
 //! `cargo run --release --example validation` leaves `target/validation/validation.csv` and four
-//! pictures beside it; `-- --quick` takes the short form that `cargo test` runs. It fails if a case
-//! does. Names of families (`-- contacts rest`) restrict it to those, `-- pictures` to the pictures.
+//! pictures beside it; `-- --quick` takes the short form. It fails if a case does. Names of families
+//! (`-- contacts rest`) restrict it to those, `-- pictures` to the pictures.
+//!
+//! `cargo test` runs every family in its short form; `cargo test --example validation -- contacts` runs one.
 
-#[path = "../tests/validation/cases.rs"]
 mod cases;
-#[path = "support/chart.rs"]
+#[path = "../support/chart.rs"]
 mod chart;
-#[path = "support/output.rs"]
+#[path = "../support/output.rs"]
 #[allow(dead_code)] // Shared by the examples, each of which uses a part.
 mod output;
 
@@ -309,4 +310,50 @@ fn loss(path: &Path) -> Result<(), Failure> {
     chart.draw(path, &lines)?;
     output::say_where("picture", path);
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::cases::{FAMILIES, Form};
+
+    /// Runs a family, and lists what does not hold.
+    fn check(family: &str) {
+        let (_, compute) = FAMILIES.iter().find(|(name, _)| *name == family).unwrap();
+        let cases = compute(Form::Short);
+        let failed: Vec<String> = cases
+            .iter()
+            .filter(|case| !case.holds())
+            .map(ToString::to_string)
+            .collect();
+        assert!(
+            failed.is_empty(),
+            "{} of {} cases fail:\n{}",
+            failed.len(),
+            cases.len(),
+            failed.join("\n")
+        );
+        assert!(!cases.is_empty());
+    }
+
+    macro_rules! families {
+        ($($name:ident)*) => {
+            $(
+                #[test]
+                fn $name() {
+                    check(stringify!($name));
+                }
+            )*
+
+            #[test]
+            fn every_family_is_tested() {
+                let listed: Vec<&str> = FAMILIES.iter().map(|(name, _)| *name).collect();
+                assert_eq!(listed, [$(stringify!($name)),*]);
+            }
+        };
+    }
+
+    families! {
+        contacts impulses chung_ooi oblique mfix impact_damper events shortcut inelastic paper_system integrators restitution
+        size_ratio energy rest defects isolated floor_and_lid columns
+    }
 }

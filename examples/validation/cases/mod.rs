@@ -1,5 +1,5 @@
-//! Cases with known answers, each computed by the public API alone. Shared by `tests/validation.rs`
-//! (short form) and `examples/validation` (long form, with tables and plots).
+//! Cases with known answers, each computed by the public API alone, in a short form for tests and a long
+//! one for tables.
 
 pub(crate) mod case;
 pub(crate) mod setup;
