@@ -1,5 +1,5 @@
 //! What a damper promises whatever it computes: the same bits from every detector, after a restore and from
-//! any number of threads; hosts; no panic; and imports that run one way.
+//! any number of threads; hosts; and imports that run one way.
 //!
 //! One program, so that what several files build dampers of is compiled once.
 
@@ -13,8 +13,6 @@ mod hosts;
 mod imports;
 #[path = "engine/large_bed.rs"]
 mod large_bed;
-#[path = "engine/no_panic.rs"]
-mod no_panic;
 #[path = "engine/paper_neighbourhood.rs"]
 mod paper_neighbourhood;
 #[path = "engine/snapshots.rs"]

@@ -2,6 +2,8 @@
 //!
 //! One program, so that what several files build dampers of is compiled once.
 
+use particle_damper::Cavity;
+
 #[path = "physics/coarse_law.rs"]
 mod coarse_law;
 #[path = "physics/composed.rs"]
@@ -18,7 +20,12 @@ mod ledger;
 mod mechanics;
 #[path = "physics/mixed.rs"]
 mod mixed;
+#[path = "physics/no_panic.rs"]
+mod no_panic;
 #[path = "physics/rolling.rs"]
 mod rolling;
 #[path = "physics/rotation.rs"]
 mod rotation;
+
+/// A cavity of any kind: one type for many tests, which spares compiling.
+type AnyCavity<'a> = &'a dyn Cavity;

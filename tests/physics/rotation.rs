@@ -2,9 +2,11 @@
 
 use particle_damper::glam::{DQuat, DVec3};
 use particle_damper::{
-    Cavity, ContactLaw, HertzMindlin, HertzTsuji, Interaction, Material, Motion, Particle,
-    Prescribed, RestitutionImpulse,
+    ContactLaw, HertzMindlin, HertzTsuji, Interaction, Material, Motion, Particle, Prescribed,
+    RestitutionImpulse,
 };
+
+use super::AnyCavity;
 
 #[path = "rotation/conserved.rs"]
 mod conserved;
@@ -34,8 +36,7 @@ fn impulses(friction: f64) -> RestitutionImpulse {
     RestitutionImpulse::new(material(0.6, friction))
 }
 
-/// A cavity of any kind, and a motion of any kind: one type for all tests, which spares compiling.
-type Room<'a> = &'a dyn Cavity;
+/// A motion of any kind: one type for all tests, which spares compiling.
 type Moved = Prescribed<Box<dyn Fn(f64) -> Motion>>;
 
 fn moved(motion: impl Fn(f64) -> Motion + 'static) -> Moved {

@@ -259,10 +259,24 @@ fn worst_restitution(damping: Damping, ending: Ending, e: f64, ratio: f64, form:
             .damping(damping)
             .ending(ending);
         for impact in [
-            collide(&strict, walls, VelocityVerlet, dt, gap, &bodies),
-            collide(&strict, walls, RungeKutta4::default(), dt, gap, &bodies),
-            collide(&sticky, walls, VelocityVerlet, dt, gap, &bodies),
-            collide(&sticky, walls, RungeKutta4::default(), dt, gap, &bodies),
+            collide(strict.clone(), walls, VelocityVerlet, dt, gap, &bodies),
+            collide(
+                strict.clone(),
+                walls,
+                RungeKutta4::default(),
+                dt,
+                gap,
+                &bodies,
+            ),
+            collide(sticky.clone(), walls, VelocityVerlet, dt, gap, &bodies),
+            collide(
+                sticky.clone(),
+                walls,
+                RungeKutta4::default(),
+                dt,
+                gap,
+                &bodies,
+            ),
         ] {
             let velocity = |n: usize| impact.bodies.get(n).map_or(0.0, |body| body.velocity.y);
             let realised = velocity(0) - velocity(1);

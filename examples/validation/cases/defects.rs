@@ -117,19 +117,19 @@ fn momentum() -> Vec<Case> {
     [
         (
             "HertzTsuji, VelocityVerlet",
-            momentum_drift(&strict, VelocityVerlet, 2e-5),
+            momentum_drift(strict.clone(), VelocityVerlet, 2e-5),
         ),
         (
             "HertzTsuji, RungeKutta4",
-            momentum_drift(&strict, RungeKutta4::default(), 2e-5),
+            momentum_drift(strict.clone(), RungeKutta4::default(), 2e-5),
         ),
         (
             "RestitutionImpulse, VelocityVerlet",
-            momentum_drift(&coarse, VelocityVerlet, 1e-4),
+            momentum_drift(coarse.clone(), VelocityVerlet, 1e-4),
         ),
         (
             "RestitutionImpulse, longest step",
-            momentum_drift(&coarse, VelocityVerlet, 6e-4),
+            momentum_drift(coarse.clone(), VelocityVerlet, 6e-4),
         ),
     ]
     .map(|(parts, drift)| {

@@ -149,7 +149,14 @@ fn restitution_errors<I: Integrator>(
     let dt = hertz_duration(k, body.mass, 1.0) / steps;
     let errors = (0..16).map(|n| {
         let gap = dt * (f64::from(n) + 0.37) / 16.0;
-        let impact = collide(&law, Materials::FIRST, integrator(), dt, gap, &[body]);
+        let impact = collide(
+            law.clone(),
+            Materials::FIRST,
+            integrator(),
+            dt,
+            gap,
+            &[body],
+        );
         (impact.bodies[0].velocity.y - e).abs()
     });
     let sums = |(squares, most): (f64, f64), error: f64| (squares + error * error, error.max(most));

@@ -27,7 +27,7 @@ fn totals(
 /// A spinning box in space, with the container's origin at a corner.
 fn flies<L: ContactLaw>(law: L, time_step: f64, steps: usize) {
     let size = dvec3(0.03, 0.02, 0.025);
-    let cavity: Room<'_> = &Cuboid::new(size).unwrap();
+    let cavity: AnyCavity<'_> = &Cuboid::new(size).unwrap();
     let body = (
         2e-3,
         DMat3::from_cols(
@@ -95,7 +95,7 @@ fn a_box_with_grains_in_space_keeps_momentum_under_impulses() {
 #[test]
 fn a_box_with_grains_in_the_plane_keeps_momentum() {
     fn run<L: ContactLaw>(law: L, time_step: f64) {
-        let cavity: Room<'_> = &Slot::new(0.03, 0.03).unwrap();
+        let cavity: AnyCavity<'_> = &Slot::new(0.03, 0.03).unwrap();
         let body = (
             1e-3,
             DMat3::from_diagonal(DVec3::splat(2e-7)),
@@ -144,7 +144,7 @@ fn a_tumbling_body_keeps_its_energy() {
         let mount = RigidBody::new(0.01, DMat3::from_diagonal(inertia))
             .unwrap()
             .released(Motion::default().turned(rotation([0.0; 3]), spin));
-        let cavity: Room<'_> = &Cuboid::new(DVec3::ONE).unwrap();
+        let cavity: AnyCavity<'_> = &Cuboid::new(DVec3::ONE).unwrap();
         let mut damper = Damper::builder(cavity, tsuji(0.3))
             .mount(mount)
             .time_step(time_step)

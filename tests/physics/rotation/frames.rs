@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use super::*;
 
 /// A bed of unlike grains that moves about, in the cavity's frame.
-fn lively(cavity: Room<'_>, count: usize) -> Vec<Particle> {
+fn lively(cavity: AnyCavity<'_>, count: usize) -> Vec<Particle> {
     let filling = Filling::new(3)
         .with(count, Particle::new(3e-3, 2e-4).unwrap())
         .with(count / 2, Particle::new(2e-3, 1e-4).unwrap());
@@ -26,7 +26,12 @@ fn lively(cavity: Room<'_>, count: usize) -> Vec<Particle> {
 }
 
 /// A tilted box under gravity is a box under tilted gravity.
-fn tilts<L: ContactLaw + Clone>(cavity: Room<'_>, law: &L, time_step: f64, orientation: DQuat) {
+fn tilts<L: ContactLaw + Clone>(
+    cavity: AnyCavity<'_>,
+    law: &L,
+    time_step: f64,
+    orientation: DQuat,
+) {
     let gravity = dvec3(0.0, -9.81, 0.0);
     let place = dvec3(0.3, -0.2, if cavity.is_planar() { 0.0 } else { 0.1 });
     let bed = lively(cavity, 8);
@@ -61,7 +66,7 @@ fn tilts<L: ContactLaw + Clone>(cavity: Room<'_>, law: &L, time_step: f64, orien
     assert!(off.length() < 1e-6 * size);
 }
 
-fn tilts_under_all_laws(cavity: Room<'_>, orientation: DQuat) {
+fn tilts_under_all_laws(cavity: AnyCavity<'_>, orientation: DQuat) {
     tilts(cavity, &tsuji(0.4), 2e-5, orientation);
     tilts(cavity, &mindlin(0.4), 2e-5, orientation);
     tilts(cavity, &impulses(0.4), 2e-4, orientation);
@@ -120,7 +125,7 @@ proptest! {
         macro_rules! of {
             ($law:expr) => {
                 &|motion, bed: [Particle; 2]| {
-                    Damper::builder(&cavity as Room<'_>, $law)
+                    Damper::builder(&cavity as AnyCavity<'_>, $law)
                         .mount(Driven::at(motion))
                         .particles(bed)
                         .initial_overlap(0.1)
@@ -154,7 +159,7 @@ fn wild(t: f64) -> Motion {
 #[test]
 fn detectors_agree_to_the_bit_in_a_container_that_turns() {
     fn run<L: ContactLaw + Clone>(law: &L, time_step: f64) {
-        let cavity: Room<'_> = &Cuboid::new(dvec3(0.03, 0.03, 0.03)).unwrap();
+        let cavity: AnyCavity<'_> = &Cuboid::new(dvec3(0.03, 0.03, 0.03)).unwrap();
         let bed = turned(&lively(cavity, 20), wild(0.0).orientation);
         macro_rules! with {
             ($detector:expr) => {{
@@ -188,7 +193,7 @@ fn detectors_agree_to_the_bit_in_a_container_that_turns() {
 #[test]
 fn a_smooth_drum_that_turns_is_a_drum_at_rest() {
     fn run<L: ContactLaw + Clone>(law: &L, time_step: f64) {
-        let cavity: Room<'_> = &Cylinder::new(0.015, 0.03).unwrap();
+        let cavity: AnyCavity<'_> = &Cylinder::new(0.015, 0.03).unwrap();
         let turn = |t: f64| {
             let (sine, cosine) = (40.0 * t).sin_cos();
             Motion::default().turned(rotation([0.0, 0.7 * sine, 0.0]), DVec3::Y * 28.0 * cosine)

@@ -7,7 +7,7 @@ use particle_damper::{
 
 use super::*;
 
-type Hosted<L> = Damper<Box<dyn Cavity>, L, Driven, Skin<LinkedCells>>;
+type Hosted<L> = Damper<Cuboid, L, Driven, Skin<LinkedCells>>;
 
 fn swung(t: f64) -> Motion {
     let axis = dvec3(1.0, 0.5, 2.0).normalize();
@@ -23,9 +23,9 @@ fn swung(t: f64) -> Motion {
 }
 
 fn hosted<L: ContactLaw>(law: L, time_step: f64) -> Hosted<L> {
-    let cavity: Box<dyn Cavity> = Box::new(Cuboid::new(dvec3(0.03, 0.02, 0.03)).unwrap());
+    let cavity = Cuboid::new(dvec3(0.03, 0.02, 0.03)).unwrap();
     let grains = Filling::new(2).with(15, Particle::new(3e-3, 0.2e-3).unwrap());
-    let bed = grains.fill(&*cavity).unwrap();
+    let bed = grains.fill(&cavity).unwrap();
     Damper::builder(cavity, law)
         .mount(Driven::at(swung(0.0)))
         .particles(bed)
@@ -62,7 +62,7 @@ fn reactions_are_what_particles_lost() {
 #[test]
 fn a_turning_damper_is_restored_and_replayed_to_the_bit() {
     fn run<L: ContactLaw + Clone>(law: &L, time_step: f64) {
-        let cavity: Room<'_> = &Slot::new(0.04, 0.03).unwrap();
+        let cavity: AnyCavity<'_> = &Slot::new(0.04, 0.03).unwrap();
         let grains = Filling::new(2).with(12, Particle::new(3e-3, 0.2e-3).unwrap());
         let path = |t: f64| {
             let (sine, cosine) = (50.0 * t).sin_cos();
@@ -119,7 +119,7 @@ fn orientations_that_cannot_be_are_refused() {
     assert!(error.to_string().contains("turns at"), "{error}");
 
     let slot = Slot::paper();
-    let mut flat = Damper::builder(&slot as Room<'_>, tsuji(0.3))
+    let mut flat = Damper::builder(&slot as AnyCavity<'_>, tsuji(0.3))
         .time_step(1e-4)
         .build()
         .unwrap();
@@ -138,7 +138,7 @@ fn an_angular_velocity_that_is_not_the_rate_of_the_orientation_is_refused() {
         .unwrap()
         .at(dvec3(0.05, 0.05, 0.0));
     let slot = Slot::paper();
-    let mut damper = Damper::builder(&slot as Room<'_>, law)
+    let mut damper = Damper::builder(&slot as AnyCavity<'_>, law)
         .mount(moved(slow))
         .particles([grain])
         .time_step(1e-4)

@@ -28,7 +28,7 @@ fn a_sphere_rides_on_the_wall_of_a_drum() {
             .moving(DVec3::Y * rate * path)
             .spinning(DVec3::Z * rate);
         let room = Disc::new(drum).unwrap();
-        let mut damper = Damper::builder(&room as Room<'_>, law)
+        let mut damper = Damper::builder(&room as AnyCavity<'_>, law)
             .mount(spinning(rate))
             .particles([start])
             .gravity(DVec3::ZERO)
@@ -86,7 +86,7 @@ fn a_drum_takes_a_sliding_sphere_along_in_the_time_of_theory() {
         let path = drum - RADIUS;
         let start = sphere().at(DVec3::X * path).moving(DVec3::Y * slow);
         let room = Disc::new(drum).unwrap();
-        let mut damper = Damper::builder(&room as Room<'_>, law)
+        let mut damper = Damper::builder(&room as AnyCavity<'_>, law)
             .mount(spinning(rate))
             .particles([start])
             .gravity(DVec3::ZERO)
@@ -144,7 +144,7 @@ fn a_ball_on_a_turntable_circles_with_two_sevenths() {
         let own = DVec3::Y.cross(velocity - spin.cross(place)) / RADIUS;
         let ball = sphere().at(place).moving(velocity).spinning(own);
         let room = Cylinder::new(0.2, 0.05).unwrap();
-        let mut damper = Damper::builder(&room as Room<'_>, law)
+        let mut damper = Damper::builder(&room as AnyCavity<'_>, law)
             .mount(table)
             .particles([ball])
             .time_step(time_step)
@@ -197,7 +197,7 @@ fn a_sphere_on_a_plane_that_tips_rolls_as_theory_has_it() {
             .moving(DVec3::NEG_X * rate * RADIUS)
             .spinning(DVec3::Z * rate);
         let room = Slot::new(width, 0.5).unwrap();
-        let mut damper = Damper::builder(&room as Room<'_>, law)
+        let mut damper = Damper::builder(&room as AnyCavity<'_>, law)
             .mount(tipping)
             .particles([start])
             .time_step(time_step)

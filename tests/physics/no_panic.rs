@@ -15,6 +15,8 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::RngSeed;
 
+use super::AnyCavity;
+
 /// Numbers that nobody should hand in, and some at the edge.
 const ABSURD: [f64; 20] = [
     f64::NAN,
@@ -181,7 +183,8 @@ impl Case {
 
     fn build<L: ContactLaw, I: Integrator>(&self, law: L, integrator: I) -> Outcome {
         let n = &self.numbers;
-        let mut builder = Damper::builder(self.cavity()?, law)
+        let cavity = self.cavity()?;
+        let mut builder = Damper::builder(&*cavity as AnyCavity<'_>, law)
             .integrator(integrator)
             .detectors([self.detector()?])
             .particles(self.particles()?)
