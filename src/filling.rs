@@ -15,9 +15,7 @@ use crate::random::Random;
 use filler::Filler;
 use lattice::Frame;
 
-/// Relative gap that is kept around every particle.
-const GAP: f64 = 1e-6;
-/// Smallest radius over the largest coordinate: below it the gap is lost in rounding.
+/// Smallest radius over the largest coordinate: below it the gap around a particle is lost in rounding.
 const SMALLEST: f64 = 1e-9;
 
 /// Fills a cavity with particles, near its floor, at random and without overlap.

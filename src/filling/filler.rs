@@ -1,9 +1,8 @@
 use glam::DVec3;
 
-use super::GAP;
 use super::lattice::{Frame, Lattice, Pattern};
 use super::occupied::Occupied;
-use super::plan::{Plan, Size};
+use super::plan::{GAP, Plan, Size};
 use crate::cavity::{Cavity, clearance};
 use crate::particle::Particle;
 use crate::random::Random;

@@ -1,9 +1,10 @@
 use std::f64::consts::PI;
 
-use super::GAP;
 use super::lattice::{Frame, Pattern};
 use crate::particle::Particle;
 
+/// Relative gap that is kept around every particle.
+pub(super) const GAP: f64 = 1e-6;
 /// Radii within this ratio share a lattice.
 const SAME_SIZE: f64 = 1.25;
 /// Widths of the lattices that are tried one after the other, over the diameter.

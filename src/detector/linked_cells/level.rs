@@ -1,6 +1,6 @@
 //! Classes of size.
 
-use super::Lattice;
+use super::lattice::Lattice;
 use crate::detector::Bed;
 
 /// The most levels. The last one holds whatever is smaller.
