@@ -7,8 +7,9 @@ use crate::contact::{Bodies, Contact, ContactForce, HeldForce, Onset, Stored};
 /// What every contact law has, whichever its kind.
 ///
 /// # Using
-/// [`HertzTsuji`] is the strict law of the paper, [`RestitutionImpulse`] the one that allows a coarser
-/// step. Pass one to [`Damper::builder`](crate::Damper::builder). An [`EitherLaw`] is chosen at run time.
+/// [`HertzTsuji`](crate::HertzTsuji) is the strict law of the paper,
+/// [`RestitutionImpulse`](crate::RestitutionImpulse) the one that allows a coarser step. Pass one to
+/// [`Damper::builder`](crate::Damper::builder). An [`EitherLaw`](crate::EitherLaw) is chosen at run time.
 ///
 /// # Implementing
 /// 1. Choose the [kind](Self::Kind): [`Forces`], and implement [`ForceLaw`] as well; or [`Impulses`],
