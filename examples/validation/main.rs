@@ -82,10 +82,6 @@ fn main() -> Result<(), Failure> {
     Ok(())
 }
 
-const fn verdict(holds: bool) -> &'static str {
-    if holds { "holds" } else { "FAILS" }
-}
-
 fn on_screen(case: &Case) -> String {
     let bound = match case.tolerance {
         Tolerance::Absolute(bound) => format!("+-{bound:.1e}"),
@@ -94,7 +90,7 @@ fn on_screen(case: &Case) -> String {
     };
     format!(
         "{} {:<90} expected {:>14.7e} got {:>14.7e} deviation {:>9.2e} ({bound}) [{}]",
-        verdict(case.holds()),
+        case.verdict(),
         case.name,
         case.expected,
         case.got,
@@ -117,7 +113,7 @@ fn as_row(family: &str, case: &Case) -> String {
         case.expected,
         case.got,
         case.deviation(),
-        verdict(case.holds())
+        case.verdict()
     )
 }
 

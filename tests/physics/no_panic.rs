@@ -16,6 +16,7 @@ use proptest::sample::Index;
 use proptest::test_runner::RngSeed;
 
 use super::AnyCavity;
+use super::mechanics::steps;
 
 /// Numbers that nobody should hand in, and some at the edge.
 const ABSURD: [f64; 20] = [
@@ -312,58 +313,45 @@ proptest! {
     }
 }
 
+/// A material, and `count` grains side by side that come down on a floor.
+fn dropped(count: u32, e: f64, mu: f64) -> (Material, impl Iterator<Item = Particle>) {
+    let own = Interaction::new(e, mu).unwrap();
+    let material = Material::new(0.4e9, 0.3, own).unwrap();
+    let bed = (0..count).map(|n| {
+        let place = dvec3(0.02 + 0.006 * f64::from(n), 0.003, 0.0);
+        Particle::new(3e-3, 2e-4)
+            .unwrap()
+            .at(place)
+            .moving(DVec3::NEG_Y)
+    });
+    (material, bed)
+}
+
 /// Limits that are in range, together.
 #[test]
 fn extremes_that_are_in_range_stay_finite() {
+    let finite = |p: Particle| p.velocity.is_finite() && p.spin.is_finite();
     for count in [0, 1, 2] {
         for (e, mu) in [(0.001, 0.0), (1.0, 0.0), (1.0, 1.0), (0.001, 1e6)] {
-            let own = Interaction::new(e, mu).unwrap();
-            let material = Material::new(0.4e9, 0.3, own).unwrap();
-            let bed = (0..count).map(|n| {
-                let place = dvec3(0.02 + 0.006 * f64::from(n), 0.003, 0.0);
-                Particle::new(3e-3, 2e-4)
-                    .unwrap()
-                    .at(place)
-                    .moving(DVec3::NEG_Y)
-            });
-            let strict = Damper::builder(Slot::paper(), HertzMindlin::new(material))
-                .particles(bed.clone())
+            let (material, bed) = dropped(count, e, mu);
+            let mut strict = Damper::builder(Slot::paper(), HertzMindlin::new(material))
+                .particles(bed)
                 .time_step(1e-7)
-                .build();
-            let mut strict = strict.unwrap();
-            for _ in 0..5000 {
-                strict.step().unwrap();
-            }
-            assert!(
-                strict
-                    .particles()
-                    .all(|p| p.velocity.is_finite() && p.spin.is_finite())
-            );
+                .build()
+                .unwrap();
+            steps(&mut strict, 5000);
+            assert!(strict.particles().all(finite));
         }
         for (e, mu) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1e6), (1.0, 1e6)] {
-            let own = Interaction::new(e, mu).unwrap();
-            let material = Material::new(0.4e9, 0.3, own).unwrap();
-            let bed = (0..count).map(|n| {
-                let place = dvec3(0.02 + 0.006 * f64::from(n), 0.003, 0.0);
-                Particle::new(3e-3, 2e-4)
-                    .unwrap()
-                    .at(place)
-                    .moving(DVec3::NEG_Y)
-            });
-            let coarse = Damper::builder(Slot::paper(), RestitutionImpulse::new(material))
+            let (material, bed) = dropped(count, e, mu);
+            let mut coarse = Damper::builder(Slot::paper(), RestitutionImpulse::new(material))
                 .mount(SingleDof::new(1e-6, 0.0, 0.0).unwrap())
                 .particles(bed)
                 .time_step(1e-5)
-                .build();
-            let mut coarse = coarse.unwrap();
-            for _ in 0..500 {
-                coarse.step().unwrap();
-            }
-            assert!(
-                coarse
-                    .particles()
-                    .all(|p| p.velocity.is_finite() && p.spin.is_finite())
-            );
+                .build()
+                .unwrap();
+            steps(&mut coarse, 500);
+            assert!(coarse.particles().all(finite));
         }
     }
 }

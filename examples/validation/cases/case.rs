@@ -68,6 +68,11 @@ impl Case {
             Tolerance::AtMost => self.got <= self.expected,
         }
     }
+
+    /// Whether it holds, in a word.
+    pub(crate) fn verdict(&self) -> &'static str {
+        if self.holds() { "holds" } else { "FAILS" }
+    }
 }
 
 impl fmt::Display for Case {
@@ -79,8 +84,8 @@ impl fmt::Display for Case {
             got,
             ..
         } = self;
-        let verdict = if self.holds() { "holds" } else { "FAILS" };
         let (deviation, tolerance) = (self.deviation(), self.tolerance);
+        let verdict = self.verdict();
         write!(
             f,
             "{name} [{source}]: expected {expected:.7e}, got {got:.7e}, deviation {deviation:.2e}, {tolerance:?}: {verdict}"

@@ -143,53 +143,43 @@ fn momentum() -> Vec<Case> {
     .into()
 }
 
+/// Mean force (N) along y of a bed of 30 that has come to rest: on the floor without friction, on the
+/// container with it, because side walls then carry a part of the bed (Janssen).
+fn mean_force<L: ContactLaw>(law: L, mu: f64, time_step: f64) -> f64 {
+    let bed = Filling::new(2)
+        .with(30, paper_particle())
+        .fill(&Slot::paper())
+        .unwrap();
+    let mut damper = Damper::builder(Slot::paper(), law)
+        .particles(bed)
+        .time_step(time_step)
+        .build()
+        .unwrap();
+    let settled = (2.0 / time_step).round() as u32;
+    let average = 5000;
+    let mut force = 0.0;
+    for step in 0..settled + average {
+        damper.step().unwrap();
+        if step >= settled {
+            force += if mu > 0.0 {
+                damper.reaction(0).unwrap().force.y
+            } else {
+                damper.wall_load(0, 2).unwrap().force.y
+            };
+        }
+    }
+    force / f64::from(average)
+}
+
 fn floor_force() -> Vec<Case> {
     let mut cases = Vec::new();
-    // Side walls with friction carry a part of the bed (Janssen): the floor alone without it, the
-    // container as a whole with it.
     let run = |strict: bool, mu: f64| {
-        let load = |floor: DVec3, whole: DVec3| if mu > 0.0 { whole.y } else { floor.y };
-        let bed = Filling::new(2)
-            .with(30, paper_particle())
-            .fill(&Slot::paper())
-            .unwrap();
-        let mean = |force: f64, steps: u32| force / f64::from(steps);
-        let average = 5000;
-        let mut force = 0.0;
+        let material = acrylic(0.75, mu);
         if strict {
-            let law = HertzTsuji::new(acrylic(0.75, mu));
-            let mut damper = Damper::builder(Slot::paper(), law)
-                .particles(bed)
-                .time_step(2e-5)
-                .build()
-                .unwrap();
-            for step in 0..100_000 + average {
-                damper.step().unwrap();
-                if step >= 100_000 {
-                    force += load(
-                        damper.wall_load(0, 2).unwrap().force,
-                        damper.reaction(0).unwrap().force,
-                    );
-                }
-            }
+            mean_force(HertzTsuji::new(material), mu, 2e-5)
         } else {
-            let law = RestitutionImpulse::new(acrylic(0.75, mu));
-            let mut damper = Damper::builder(Slot::paper(), law)
-                .particles(bed)
-                .time_step(1e-4)
-                .build()
-                .unwrap();
-            for step in 0..20_000 + average {
-                damper.step().unwrap();
-                if step >= 20_000 {
-                    force += load(
-                        damper.wall_load(0, 2).unwrap().force,
-                        damper.reaction(0).unwrap().force,
-                    );
-                }
-            }
+            mean_force(RestitutionImpulse::new(material), mu, 1e-4)
         }
-        mean(force, average)
     };
     for (law, strict) in [("HertzTsuji", true), ("RestitutionImpulse", false)] {
         let weight = -30.0 * 0.2e-3 * 9.81;
