@@ -107,6 +107,8 @@ pub struct Contact {
     /// a wall of a container that yields; zero if it does not, and for a pair (the law knows its masses).
     /// The inverse effective mass along the normal is larger by as much.
     pub wall_inverse_mass: f64,
+    /// Whether the bodies move in the plane z = 0. Normal and velocity have no z there, and spins z alone.
+    pub planar: bool,
 }
 
 impl Contact {
@@ -122,6 +124,7 @@ impl Contact {
             elapsed: 0.0,
             correction: 0.0,
             wall_inverse_mass: 0.0,
+            planar: false,
         }
     }
 
@@ -136,7 +139,17 @@ impl Contact {
     #[must_use]
     #[inline(always)]
     pub fn slip(&self) -> DVec3 {
-        self.velocity + self.approach_speed() * self.normal
+        self.flattened(self.velocity + self.approach_speed() * self.normal)
+    }
+
+    /// A vector across the normal, or along it: the compiler sees what is always zero.
+    #[inline(always)]
+    pub(crate) fn flattened(&self, vector: DVec3) -> DVec3 {
+        if self.planar {
+            vector.truncate().extend(0.0)
+        } else {
+            vector
+        }
     }
 }
 

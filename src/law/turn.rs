@@ -14,18 +14,14 @@ use crate::contact::Contact;
 pub(super) fn turned(vector: DVec3, contact: &Contact) -> DVec3 {
     let normal = contact.normal;
     let off = vector.dot(normal);
-    let flat = vector - off * normal;
-    let left = flat.length_squared();
-    // What stood upright on the plane has no direction in it.
-    let stretch = if left > 0.0 {
-        ((left + off * off) / left).sqrt()
-    } else {
-        0.0
-    };
+    let flat = contact.flattened(vector - off * normal);
+    // The root of 1 + (off/left)^2, its Pade approximant: a root and a quotient less.
+    let (left, off) = (4.0 * flat.length_squared() + f64::MIN_POSITIVE, off * off);
     // Cayley's form of a turn: of the right length whatever the angle, of the angle to third order.
     let half = 0.25 * contact.elapsed * (contact.spins[0] + contact.spins[1]).dot(normal);
     let (along, across) = (1.0 - half * half, 2.0 * half);
-    (flat * along + normal.cross(flat) * across) * (stretch / (1.0 + half * half))
+    let whole = contact.flattened(flat * along + normal.cross(flat) * across);
+    whole * ((left + 3.0 * off) / ((left + off) * (1.0 + half * half)))
 }
 
 #[cfg(test)]

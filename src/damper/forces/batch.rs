@@ -313,6 +313,7 @@ impl<L: ForceLaw> Batch<L> {
             spins,
             elapsed: step_time.elapsed,
             correction: step_time.correction,
+            planar: S::PLANAR,
             wall_inverse_mass: if K::IS_PAIR {
                 0.0
             } else {
@@ -494,7 +495,15 @@ impl<L: ForceLaw> Batch<L> {
     #[inline(always)]
     pub(super) fn largest_overlap(&self) -> f64 {
         let overlaps = &self.overlap[..self.count.min(BATCH_SIZE)];
+        let (fours, rest) = overlaps.as_chunks::<4>();
+        // Four at a time, to be vectors.
+        let mut deepest = [0.0; 4];
+        for four in fours {
+            for (deepest, overlap) in deepest.iter_mut().zip(four) {
+                *deepest = at_least(*overlap, *deepest);
+            }
+        }
         let deeper = |deepest, overlap: &f64| at_least(*overlap, deepest);
-        overlaps.iter().fold(0.0, deeper)
+        deepest.iter().chain(rest).fold(0.0, deeper)
     }
 }
