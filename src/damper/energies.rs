@@ -106,10 +106,11 @@ fn add<C: Cavity, L: ForceLaw>(
         [u32; 2],
     ) -> (L::Coefficients, Contact),
 ) {
+    let mut memories = list.memories();
     for (candidate, bodies) in list.all() {
         let (kind, contact) = contact(view, list, candidate, bodies);
         if contact.overlap > 0.0 {
-            let memory = list.memory_of(candidate, view.stamp).copied();
+            let memory = memories.of(candidate).copied();
             let stored = view
                 .law
                 .stored(&kind, &contact, &memory.unwrap_or_default());

@@ -27,7 +27,7 @@ use block::{history_buffers, make_blocks, reserved_by, room_for};
 pub(crate) use columns::make_room;
 pub(crate) use detection::Detectors;
 pub(crate) use history::ContactRecord;
-pub(crate) use list::NeighbourList;
+pub(crate) use list::{NeighbourList, Run};
 
 /// The broad and the narrow phase, and what they have found.
 #[derive(Clone)]

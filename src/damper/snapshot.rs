@@ -220,7 +220,7 @@ impl<C: Cavity, L: ContactLaw> Engine<C, L> {
         let (state, neighbours) = (&self.state, &self.neighbours);
         let mut snapshot = Snapshot {
             state: BareSnapshot::new(state, setup, clock, neighbours.since_sort),
-            memory: neighbours.history(state.stamp),
+            memory: neighbours.history(),
         };
         snapshot.state.digest = snapshot.digest(&self.model.law);
         snapshot

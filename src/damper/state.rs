@@ -65,8 +65,6 @@ pub(crate) struct State {
     /// What impulses on the containers do.
     pub(crate) mobilities: Mobilities,
     pub(crate) time: f64,
-    /// Number of the last accepted step; it wraps.
-    pub(crate) stamp: u32,
     /// Length of the step, s.
     pub(crate) time_step: f64,
     /// How the step began.
@@ -109,7 +107,6 @@ impl State {
                 correction: 0.0,
                 time_step: self.time_step,
             },
-            stamp: self.stamp,
             planar: self.planar,
         }
     }

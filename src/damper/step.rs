@@ -34,7 +34,6 @@ impl<C: Cavity, L: ContactLaw> Engine<C, L> {
         self.solve_impulses(parts)?;
         // Asks to evaluate forces, once or more.
         integrator.step(&mut SteppedSystem::new(self, parts, clock), dt)?;
-        self.state.end_step();
         self.state.rebase_mount(parts.mount);
         self.state.check_course()?;
         self.state.time = clock.advance(dt);

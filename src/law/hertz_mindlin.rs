@@ -114,7 +114,10 @@ impl HertzMindlin {
         let kept = at_most(normal.root / memory.root, 1.0);
         // The trapezoidal rule. A contact that begins has slipped for half of the step on average.
         let gain = coefficients.shear * normal.root * (0.5 * dt);
-        let load = turned(contact.flattened(memory.load * kept + memory.slip * gain), contact) + slip * gain;
+        let load = turned(
+            contact.flattened(memory.load * kept + memory.slip * gain),
+            contact,
+        ) + slip * gain;
 
         let bearable = coefficients.stop * (1.0 / dt);
         let damping = slip * at_most(self.damping_ratio * normal.resistance, bearable);

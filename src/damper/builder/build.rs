@@ -138,7 +138,6 @@ fn assemble<C: Cavity, L: ContactLaw>(
             compartment_of_wall: compartment_of_wall(&compartments),
             compartments,
             time: settings.start_time,
-            stamp: 0,
             time_step,
             step_start: StepStart::default(),
             overlap_limit: settings.overlap_limit * smallest,

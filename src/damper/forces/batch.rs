@@ -136,6 +136,9 @@ impl<'a, S: Space> Columns<'a, S> {
     }
 }
 
+/// What contacts remember, and where it is put what they will at the end of the step.
+type Memories<'a, L> = (&'a [ContactMemory<L>], &'a mut [ContactMemory<L>]);
+
 /// Up to [`BATCH_SIZE`] contacts, all of pairs or all with walls, and what the law answers.
 #[derive(Clone)]
 pub(super) struct Batch<L: ContactLaw> {
@@ -154,8 +157,6 @@ pub(super) struct Batch<L: ContactLaw> {
     /// Of walls: velocity that they gain along the normal per unit impulse, 1/kg.
     wall_inverse_mass: Column,
     kinds: Vec<L::Coefficients>,
-    memory: [ContactMemory<L>; BATCH_SIZE],
-    advanced: [ContactMemory<L>; BATCH_SIZE],
     push: Lanes,
     torques: [Lanes; 2],
 }
@@ -172,8 +173,6 @@ impl<L: ContactLaw> Default for Batch<L> {
             approach: [0.0; BATCH_SIZE],
             wall_inverse_mass: [0.0; BATCH_SIZE],
             kinds: Vec::with_capacity(BATCH_SIZE),
-            memory: [ContactMemory::<L>::default(); BATCH_SIZE],
-            advanced: [ContactMemory::<L>::default(); BATCH_SIZE],
             push: Lanes::ZERO,
             torques: [Lanes::ZERO; 2],
         }
@@ -251,12 +250,6 @@ impl<L: ForceLaw> Batch<L> {
         }
     }
 
-    /// Where it is put what the contacts remember.
-    #[inline(always)]
-    pub(super) const fn memory_mut(&mut self) -> &mut [ContactMemory<L>; BATCH_SIZE] {
-        &mut self.memory
-    }
-
     /// Works out where and how fast the bodies meet. Apart from the law, so that the roots and
     /// quotients of more contacts are under way at a time.
     #[inline(never)]
@@ -332,18 +325,19 @@ impl<L: ForceLaw> Batch<L> {
         only: Option<&L::Coefficients>,
         kinds: impl Iterator<Item = L::Coefficients>,
         step_time: StepTime,
+        memories: Memories<'_, L>,
     ) {
         self.work_out_kinematics::<K, S>();
         if let Some(only) = only {
             if law.has_couple(only) {
-                self.evaluate_alike::<K, S, END, true>(law, only, step_time);
+                self.evaluate_alike::<K, S, END, true>(law, only, step_time, memories);
             } else {
-                self.evaluate_alike::<K, S, END, false>(law, only, step_time);
+                self.evaluate_alike::<K, S, END, false>(law, only, step_time, memories);
             }
         } else {
             self.kinds.clear();
             self.kinds.extend(kinds);
-            self.evaluate_mixed::<K, S, END>(law, step_time);
+            self.evaluate_mixed::<K, S, END>(law, step_time, memories);
         }
     }
 
@@ -353,10 +347,16 @@ impl<L: ForceLaw> Batch<L> {
         law: &L,
         kind: &L::Coefficients,
         step_time: StepTime,
+        (memory, advanced): Memories<'_, L>,
     ) {
         let kind = *kind;
-        for n in 0..self.count.min(BATCH_SIZE) {
-            self.evaluate_one::<K, S, END, COUPLE>(law, &kind, n, step_time);
+        let count = self.count.min(BATCH_SIZE);
+        let (memory, advanced) = (&memory[..count], &mut advanced[..count]);
+        for n in 0..count {
+            let answer = self.evaluate_one::<K, S, COUPLE>(law, &kind, n, step_time, &memory[n]);
+            if END {
+                advanced[n] = answer;
+            }
         }
     }
 
@@ -365,28 +365,30 @@ impl<L: ForceLaw> Batch<L> {
         &mut self,
         law: &L,
         step_time: StepTime,
+        (memory, advanced): Memories<'_, L>,
     ) {
         for n in 0..self.kinds.len().min(BATCH_SIZE) {
             let kind = self.kinds[n];
-            self.evaluate_one::<K, S, END, true>(law, &kind, n, step_time);
+            let answer = self.evaluate_one::<K, S, true>(law, &kind, n, step_time, &memory[n]);
+            if END {
+                advanced[n] = answer;
+            }
         }
     }
 
     #[inline(always)]
-    fn evaluate_one<K: ContactKind, S: Space, const END: bool, const COUPLE: bool>(
+    fn evaluate_one<K: ContactKind, S: Space, const COUPLE: bool>(
         &mut self,
         law: &L,
         kind: &L::Coefficients,
         n: usize,
         step_time: StepTime,
-    ) {
+        memory: &ContactMemory<L>,
+    ) -> ContactMemory<L> {
         let contact = self.contact::<K, S>(n, step_time);
-        let memory = self.memory[n];
-        let answer = law.force(kind, &contact, &memory);
-        if END {
-            self.advanced[n] = law.advance(kind, &contact, &memory);
-        }
+        let answer = law.force(kind, &contact, memory);
         self.store::<K, S, COUPLE>(n, contact.normal, &answer);
+        law.advance(kind, &contact, memory)
     }
 
     /// Stores what an answer does to the two bodies.
@@ -413,15 +415,16 @@ impl<L: ForceLaw> Batch<L> {
         only: Option<&L::Coefficients>,
         step_time: StepTime,
         acceleration: impl Fn(usize) -> DVec3,
+        (memories, advanced): Memories<'_, L>,
     ) {
         for n in 0..self.count.min(BATCH_SIZE) {
             if self.is_near_onset(n, step_time) {
                 let kind = only.unwrap_or_else(|| &self.kinds[n]);
                 let (contact, answer, memory) =
-                    self.at_onset::<K, S>(law, kind, n, step_time, acceleration(n));
+                    self.at_onset::<K, S>(law, kind, n, step_time, acceleration(n), &memories[n]);
                 self.store::<K, S, true>(n, contact.normal, &answer);
                 if END {
-                    self.advanced[n] = memory;
+                    advanced[n] = memory;
                 }
             }
         }
@@ -443,10 +446,11 @@ impl<L: ForceLaw> Batch<L> {
         n: usize,
         step_time: StepTime,
         acceleration: DVec3,
+        memory: &ContactMemory<L>,
     ) -> (Contact, ContactForce, ContactMemory<L>) {
         let contact = self.contact::<K, S>(n, step_time);
         let onset = Onset::new(step_time.time_step, acceleration.dot(contact.normal));
-        let (answer, memory) = law.at_onset(kind, &contact, &self.memory[n], &onset);
+        let (answer, memory) = law.at_onset(kind, &contact, memory, &onset);
         (contact, answer, memory)
     }
 
@@ -458,11 +462,12 @@ impl<L: ForceLaw> Batch<L> {
         n: usize,
         step_time: StepTime,
         acceleration: DVec3,
+        memory: &ContactMemory<L>,
     ) -> (Contact, ContactForce, ContactMemory<L>) {
         if law.corrects_onset() && self.is_near_onset(n, step_time) {
-            return self.at_onset::<K, Volume>(law, kind, n, step_time, acceleration);
+            return self.at_onset::<K, Volume>(law, kind, n, step_time, acceleration, memory);
         }
-        let (contact, memory) = (self.contact::<K, Volume>(n, step_time), &self.memory[n]);
+        let contact = self.contact::<K, Volume>(n, step_time);
         let answer = law.force(kind, &contact, memory);
         (contact, answer, law.advance(kind, &contact, memory))
     }
@@ -477,12 +482,6 @@ impl<L: ForceLaw> Batch<L> {
     #[inline(always)]
     pub(super) const fn torques(&self, n: usize) -> [DVec3; 2] {
         [self.torques[0].get(n), self.torques[1].get(n)]
-    }
-
-    /// What the contacts remember at the end of the step.
-    #[inline(always)]
-    pub(super) const fn advanced(&self) -> &[ContactMemory<L>; BATCH_SIZE] {
-        &self.advanced
     }
 
     /// The overlap of a contact in m.

@@ -12,9 +12,9 @@ use super::report::{report_pairs, report_walls};
 use super::sums::Sums;
 use crate::cavity::Cavity;
 use crate::contact::{Partner, WallLoad};
-use crate::damper::neighbours::{Block, ContactId, NeighbourList, make_room};
+use crate::damper::neighbours::{Block, ContactId, Run, make_room};
 use crate::damper::state::{Plane, Space, StateView, Volume, react};
-use crate::law::{ContactLaw, ForceLaw};
+use crate::law::{ContactLaw, ContactMemory, ForceLaw};
 use crate::observer::Observer;
 
 /// What a block sends to a particle of a later one.
@@ -52,7 +52,7 @@ impl<L: ContactLaw> BlockForces<L> {
 impl<L: ForceLaw> BlockForces<L> {
     /// Evaluates all contacts of a block, and turns forces and torques on its own particles, for which
     /// there is room in `sums`, into accelerations; halo forces of other blocks are not among them. Returns
-    /// whether all are finite. With `END`, contacts advance their memory to step `view.stamp + 1`.
+    /// whether all are finite. With `END`, contacts advance their memory.
     pub(super) fn evaluate<C: Cavity, const END: bool>(
         &mut self,
         block: &mut Block<L>,
@@ -106,11 +106,13 @@ impl<L: ForceLaw> BlockForces<L> {
         observer: &mut dyn Observer,
     ) -> f64 {
         let (list, batch) = (&mut block.pairs, &mut *self.batch);
-        let mut deepest = 0.0_f64;
+        let (mut deepest, mut place) = (0.0_f64, 0);
+        list.begin_runs();
         for run in runs(list.contacts.len()) {
-            evaluate_pairs::<C, L, S, END>(view, list, batch, run.clone());
+            let (run, advanced) = list.run(run, &mut place);
+            evaluate_pairs::<C, L, S, END>(view, &run, advanced, batch);
             deepest = deepest.max(batch.largest_overlap());
-            let bodies = side_by_side(&list.contacts.bodies()[run.clone()]);
+            let bodies = side_by_side(run.bodies);
             for n in 0..bodies.len() {
                 let [i, j] = &bodies[n];
                 let (push, [first, second]) = (batch.push(n), batch.torques(n));
@@ -118,8 +120,11 @@ impl<L: ForceLaw> BlockForces<L> {
                 sums.add(*j as usize, -push, second);
             }
             if END && observer.wants_contacts() {
-                report_pairs(view, list, batch, run, observer);
+                report_pairs(view, &run, batch, observer);
             }
+        }
+        if END {
+            list.advance_memories();
         }
         deepest
     }
@@ -134,11 +139,13 @@ impl<L: ForceLaw> BlockForces<L> {
         observer: &mut dyn Observer,
     ) -> f64 {
         let (list, batch) = (&mut block.halo, &mut *self.batch);
-        let mut deepest = 0.0_f64;
+        let (mut deepest, mut place) = (0.0_f64, 0);
+        list.begin_runs();
         for run in runs(list.contacts.len()) {
-            evaluate_pairs::<C, L, S, END>(view, list, batch, run.clone());
+            let (run, advanced) = list.run(run, &mut place);
+            evaluate_pairs::<C, L, S, END>(view, &run, advanced, batch);
             deepest = deepest.max(batch.largest_overlap());
-            for (n, [i, j]) in list.contacts.bodies()[run.clone()].iter().enumerate() {
+            for (n, [i, j]) in run.bodies.iter().enumerate() {
                 let (push, [first, second]) = (batch.push(n), batch.torques(n));
                 let both = [(*i, push, first), (*j, -push, second)];
                 for (index, force, torque) in both {
@@ -154,8 +161,11 @@ impl<L: ForceLaw> BlockForces<L> {
                 }
             }
             if END && observer.wants_contacts() {
-                report_pairs(view, list, batch, run, observer);
+                report_pairs(view, &run, batch, observer);
             }
+        }
+        if END {
+            list.advance_memories();
         }
         deepest
     }
@@ -171,11 +181,13 @@ impl<L: ForceLaw> BlockForces<L> {
     ) -> f64 {
         let (list, batch) = (&mut block.walls, &mut *self.batch);
         let position = S::rows(view.position.flat());
-        let mut deepest = 0.0_f64;
+        let (mut deepest, mut place) = (0.0_f64, 0);
+        list.begin_runs();
         for run in runs(list.contacts.len()) {
-            evaluate_walls::<C, L, S, END>(view, list, batch, run.clone());
+            let (run, advanced) = list.run(run, &mut place);
+            evaluate_walls::<C, L, S, END>(view, &run, advanced, batch);
             deepest = deepest.max(batch.largest_overlap());
-            let bodies = side_by_side(&list.contacts.bodies()[run.clone()]);
+            let bodies = side_by_side(run.bodies);
             for n in 0..bodies.len() {
                 let [index, wall] = &bodies[n];
                 let (push, [turn, _]) = (batch.push(n), batch.torques(n));
@@ -190,8 +202,11 @@ impl<L: ForceLaw> BlockForces<L> {
                 }
             }
             if END && observer.wants_contacts() {
-                report_walls(view, list, batch, run, observer);
+                report_walls(view, &run, batch, observer);
             }
+        }
+        if END {
+            list.advance_memories();
         }
         deepest
     }
@@ -207,28 +222,20 @@ fn runs(contacts: usize) -> impl Iterator<Item = Range<usize>> {
 #[inline(always)]
 fn evaluate_pairs<C: Cavity, L: ForceLaw, S: Space, const END: bool>(
     view: &StateView<'_, C, L>,
-    list: &mut NeighbourList<L>,
+    run: &Run<'_, L>,
+    advanced: &mut [ContactMemory<L>],
     batch: &mut Batch<L>,
-    run: Range<usize>,
 ) {
-    let bodies = &list.contacts.bodies()[run.clone()];
-    let candidates = &list.contacts.candidates()[run.clone()];
+    let bodies = run.bodies;
     batch.gather_pairs::<C, S>(view, bodies);
-    list.load_memories(run.clone(), view.stamp, batch.memory_mut());
-    let kinds = bodies.iter().zip(candidates).map(|([i, j], candidate)| {
-        let first = view.species[*i as usize];
-        let second = view.species[*j as usize];
-        let own = list.prepared(*candidate);
-        view.coefficients.pair(first, second, own)
-    });
-    let only = view.coefficients.only_pair();
-    batch.evaluate::<SpherePair, S, END>(view.law, only, kinds, view.step_time);
+    let kinds = (0..bodies.len()).map(|n| run.pair_coefficients(view, n));
+    let (only, time) = (view.coefficients.only_pair(), view.step_time);
+    let memories = (run.memory, &mut *advanced);
+    batch.evaluate::<SpherePair, S, END>(view.law, only, kinds, time, memories);
     if view.law.corrects_onset() {
         let acceleration = |n: usize| view.acceleration_of_pair(bodies[n]);
-        batch.correct_onsets::<SpherePair, S, END>(view.law, only, view.step_time, acceleration);
-    }
-    if END {
-        list.store_memories(run, view.stamp.wrapping_add(1), batch.advanced());
+        let memories = (run.memory, advanced);
+        batch.correct_onsets::<SpherePair, S, END>(view.law, only, time, acceleration, memories);
     }
 }
 
@@ -236,25 +243,23 @@ fn evaluate_pairs<C: Cavity, L: ForceLaw, S: Space, const END: bool>(
 #[inline(always)]
 fn evaluate_walls<C: Cavity, L: ForceLaw, S: Space, const END: bool>(
     view: &StateView<'_, C, L>,
-    list: &mut NeighbourList<L>,
+    run: &Run<'_, L>,
+    advanced: &mut [ContactMemory<L>],
     batch: &mut Batch<L>,
-    run: Range<usize>,
 ) {
-    let bodies = &list.contacts.bodies()[run.clone()];
+    let bodies = run.bodies;
     batch.gather_walls::<C, S>(view, bodies);
-    list.load_memories(run.clone(), view.stamp, batch.memory_mut());
     let kinds = bodies.iter().map(|[index, _]| {
         let species = view.species[*index as usize];
         *view.coefficients.wall(species)
     });
-    let only = view.coefficients.only_wall();
-    batch.evaluate::<SphereWall, S, END>(view.law, only, kinds, view.step_time);
+    let (only, time) = (view.coefficients.only_wall(), view.step_time);
+    let memories = (run.memory, &mut *advanced);
+    batch.evaluate::<SphereWall, S, END>(view.law, only, kinds, time, memories);
     if view.law.corrects_onset() {
         let acceleration =
             |n: usize| view.acceleration_at_wall(bodies[n][0] as usize, bodies[n][1]);
-        batch.correct_onsets::<SphereWall, S, END>(view.law, only, view.step_time, acceleration);
-    }
-    if END {
-        list.store_memories(run, view.stamp.wrapping_add(1), batch.advanced());
+        let memories = (run.memory, advanced);
+        batch.correct_onsets::<SphereWall, S, END>(view.law, only, time, acceleration, memories);
     }
 }

@@ -1,34 +1,33 @@
 //! What observers are told of contacts that were evaluated.
 
-use std::ops::Range;
-
 use super::batch::{Batch, SpherePair, SphereWall};
 use crate::cavity::Cavity;
 use crate::contact::Partner;
-use crate::damper::neighbours::NeighbourList;
+use crate::damper::neighbours::Run;
 use crate::damper::state::StateView;
 use crate::law::ForceLaw;
 use crate::observer::{ContactEvent, Observer};
 
-/// Tells `observer` of the pairs in `batch`, which are in `list`.
+/// Tells `observer` of the pairs of a run, which are in `batch`.
 #[cold]
 pub(super) fn report_pairs<C: Cavity, L: ForceLaw>(
     view: &StateView<'_, C, L>,
-    list: &NeighbourList<L>,
+    run: &Run<'_, L>,
     batch: &Batch<L>,
-    run: Range<usize>,
     observer: &mut dyn Observer,
 ) {
-    for (n, number) in run.enumerate() {
-        let bodies = list.contacts.bodies()[number];
-        let candidate = list.contacts.candidates()[number];
+    for (n, bodies) in run.bodies.iter().copied().enumerate() {
         let (index, other) = (bodies[0] as usize, bodies[1] as usize);
-        let prepared = list.prepared(candidate);
-        let (first, second) = (view.species[index], view.species[other]);
-        let kind = view.coefficients.pair(first, second, prepared);
+        let kind = run.pair_coefficients(view, n);
         let acceleration = view.acceleration_of_pair(bodies);
-        let (contact, force, memory) =
-            batch.evaluate_contact::<SpherePair>(view.law, &kind, n, view.step_time, acceleration);
+        let (contact, force, memory) = batch.evaluate_contact::<SpherePair>(
+            view.law,
+            &kind,
+            n,
+            view.step_time,
+            acceleration,
+            &run.memory[n],
+        );
         observer.contact(&ContactEvent {
             particle: view.id[index] as usize,
             partner: Partner::Particle(view.id[other] as usize),
@@ -44,21 +43,26 @@ pub(super) fn report_pairs<C: Cavity, L: ForceLaw>(
     }
 }
 
-/// Tells `observer` of the contacts with walls in `batch`.
+/// Tells `observer` of the contacts of a run with walls, which are in `batch`.
 #[cold]
 pub(super) fn report_walls<C: Cavity, L: ForceLaw>(
     view: &StateView<'_, C, L>,
-    list: &NeighbourList<L>,
+    run: &Run<'_, L>,
     batch: &Batch<L>,
-    run: Range<usize>,
     observer: &mut dyn Observer,
 ) {
-    for (n, [index, wall]) in list.contacts.bodies()[run].iter().enumerate() {
+    for (n, [index, wall]) in run.bodies.iter().enumerate() {
         let (index, wall) = (*index as usize, *wall);
         let kind = view.coefficients.wall(view.species[index]);
         let acceleration = view.acceleration_at_wall(index, wall);
-        let (contact, force, memory) =
-            batch.evaluate_contact::<SphereWall>(view.law, kind, n, view.step_time, acceleration);
+        let (contact, force, memory) = batch.evaluate_contact::<SphereWall>(
+            view.law,
+            kind,
+            n,
+            view.step_time,
+            acceleration,
+            &run.memory[n],
+        );
         observer.contact(&ContactEvent {
             particle: view.id[index] as usize,
             partner: Partner::Wall(wall - view.compartment_of_wall(wall).first_wall),

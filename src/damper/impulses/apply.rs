@@ -38,7 +38,7 @@ impl<S: Space> ImpulseSolver<S> {
             state.check_accelerations()?;
         }
         self.load_walls(step, state);
-        self.store_forces(step, state.stamp, blocks);
+        self.store_forces(step, blocks);
         // Back from the prediction: the mount is where the step begins.
         let starts = &self.containers.starts;
         for (compartment, start) in state.compartments.iter_mut().zip(starts) {
@@ -64,14 +64,14 @@ impl<S: Space> ImpulseSolver<S> {
     }
 
     /// Keeps forces in the lists of their contacts, but for those that one solve settles anyway.
-    fn store_forces<L: ImpulseLaw>(&self, step: &SolverStep, stamp: u32, blocks: &mut [Block<L>]) {
-        let stamp = stamp.wrapping_add(1);
+    fn store_forces<L: ImpulseLaw>(&self, step: &SolverStep, blocks: &mut [Block<L>]) {
         let time_step = step.time_step;
         let (constraints, infos) = (&*self.constraints, &self.infos[..self.constraints.len()]);
         let mut coupled = self.coupled.as_slice();
         let mut ends = self.list_ends.iter();
         let mut keep = move |list: &mut NeighbourList<L>| {
             let end = ends.next().map_or(0, |end| *end as u32);
+            list.forget();
             let own;
             (own, coupled) = coupled.split_at(coupled.partition_point(|number| *number < end));
             for number in own.iter().map(|number| *number as usize) {
@@ -83,7 +83,7 @@ impl<S: Space> ImpulseSolver<S> {
                         load: at_most(force.normal, info.before),
                         gravity: info.speed_gain / time_step,
                     };
-                    list.keep(info.candidate, stamp, &held);
+                    list.remember(info.candidate, &held);
                 }
             }
         };

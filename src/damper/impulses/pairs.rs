@@ -131,21 +131,25 @@ impl<S: Space> ImpulseSolver<S> {
         let counts = &mut contact_counts[..view.radius.len()];
         let only = view.coefficients.only_pair();
         let common_gain = containers.common_speed_gain();
+        let mut memories = list.memories();
         let runs = list.contacts.bodies().chunks(LANES);
         for (pairs, candidates) in runs.zip(list.contacts.candidates().chunks(LANES)) {
             lanes.gather(view, bodies, pairs);
+            let mut held = [None; LANES];
+            for (held, candidate) in held.iter_mut().zip(candidates) {
+                *held = memories.of(*candidate);
+            }
             let closes_under_load = |n: usize, gap: f64, approach: f64| {
                 let [i, j] = pairs[n].map(|index| index as usize);
                 let inverse_mass = bodies[i].inverse_mass + bodies[j].inverse_mass;
-                let held = list.memory_of(candidates[n], view.stamp);
-                step.closes_under_load(gap, approach, inverse_mass, held)
+                step.closes_under_load(gap, approach, inverse_mass, held[n])
             };
             let (active, found) = lanes.find_active(step, pairs.len(), closes_under_load);
             for n in &active[..found.min(LANES)] {
                 let n = *n as usize % LANES;
                 let (pair, candidate) = (pairs[n], candidates[n]);
                 let [i, j] = pair.map(|index| index as usize);
-                let held = list.memory_of(candidate, view.stamp);
+                let held = held[n];
                 let lever = lanes.distance[n] / lanes.touching[n];
                 let inverse_mass = bodies[i].inverse_mass + bodies[j].inverse_mass;
                 let kinematics = ContactKinematics {

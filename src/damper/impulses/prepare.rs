@@ -215,6 +215,7 @@ impl<S: Space> ImpulseSolver<S> {
     ) {
         let start = self.constraints.len();
         let list = &block.walls;
+        let mut memories = list.memories();
         let contacts = list
             .contacts
             .bodies()
@@ -234,7 +235,7 @@ impl<S: Space> ImpulseSolver<S> {
             let at_start = ahead + motion.velocity_gain.dot(point.normal);
             let approach = at_least(at_start, 0.0);
             let overlap = radius - point.distance;
-            let held = list.memory_of(candidate, view.stamp);
+            let held = memories.of(candidate);
             if -overlap >= step.prediction_distance(at_least(ahead, approach))
                 && !step.closes_under_load(-overlap, at_start, body.inverse_mass, held)
             {
@@ -315,6 +316,7 @@ impl<S: Space> ImpulseSolver<S> {
         (start, walls): (usize, bool),
         own: impl Fn(&ContactConstraint<S>, &ConstraintInfo) -> L::Coefficients,
     ) {
+        let mut memories = list.memories();
         for n in start..self.constraints.len() {
             let (constraint, info) = (&self.constraints[n], &self.infos[n]);
             let arm = view.law.rolling_arm(&own(constraint, info));
@@ -324,7 +326,7 @@ impl<S: Space> ImpulseSolver<S> {
             let [first, second] = constraint.bodies.map(|body| body as usize);
             let curvature = |index: usize| 1.0 / view.radius[index];
             let inverse_inertia = |index: usize| view.inverse_inertia[index];
-            let held = list.memory_of(info.candidate, view.stamp);
+            let held = memories.of(info.candidate);
             let speed_gain = info.speed_gain;
             let couple = held.map_or_else(S::Spin::default, |held| {
                 let mut couple = held.force.couple;

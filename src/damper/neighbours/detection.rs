@@ -204,10 +204,10 @@ impl<L: ContactLaw> Neighbours<L> {
     }
 
     /// Memories of all contacts, pairs and walls, by index.
-    pub(crate) fn history(&self, stamp: u32) -> ContactHistory<L> {
+    pub(crate) fn history(&self) -> ContactHistory<L> {
         let mut memory = [Vec::new(), Vec::new()];
         for block in &self.blocks {
-            block.save_history(stamp, &mut memory);
+            block.save_history(&mut memory);
         }
         memory[0].sort_unstable_by_key(ContactRecord::pair);
         memory

@@ -8,7 +8,7 @@ use std::ops::Range;
 use super::columns::make_room;
 use super::contacts::Contacts;
 use super::history::ContactRecord;
-use super::memories::Memories;
+use super::memories::{Memories, Reader};
 use crate::damper::state::{Coefficients, StateView};
 use crate::law::{ContactLaw, ContactMemory, LawError};
 
@@ -24,6 +24,29 @@ pub(crate) struct NeighbourList<L: ContactLaw> {
     /// One each, if the law has to be asked pair by pair; else empty.
     prepared: Vec<L::Coefficients>,
     pub(crate) contacts: Contacts,
+}
+
+/// Contacts that follow on one another in a list.
+pub(crate) struct Run<'a, L: ContactLaw> {
+    pub(crate) bodies: &'a [[u32; 2]],
+    candidates: &'a [u32],
+    /// What each remembers.
+    pub(crate) memory: &'a [ContactMemory<L>],
+    prepared: &'a [L::Coefficients],
+}
+
+impl<L: ContactLaw> Run<'_, L> {
+    /// The coefficients of a pair.
+    #[inline(always)]
+    pub(crate) fn pair_coefficients<C>(
+        &self,
+        view: &StateView<'_, C, L>,
+        n: usize,
+    ) -> L::Coefficients {
+        let [first, second] = self.bodies[n].map(|index| view.species[index as usize]);
+        let own = self.prepared.get(self.candidates[n] as usize);
+        view.coefficients.pair(first, second, own)
+    }
 }
 
 impl<L: ContactLaw> Default for NeighbourList<L> {
@@ -46,17 +69,14 @@ impl<L: ContactLaw> NeighbourList<L> {
         self.contacts.clear();
     }
 
-    /// Adds to `history` what contacts remember that touched at the end of step `stamp`.
-    pub(crate) fn save_history(
-        &self,
-        stamp: u32,
-        history: &mut Vec<ContactRecord<ContactMemory<L>>>,
-    ) {
+    /// Adds to `history` what contacts remember.
+    pub(crate) fn save_history(&self, history: &mut Vec<ContactRecord<ContactMemory<L>>>) {
         if !Memories::<ContactMemory<L>>::ANY {
             return;
         }
+        let mut memories = self.memories();
         for (index, [first, second]) in self.all() {
-            if let Some(memory) = self.memory_of(index, stamp) {
+            if let Some(memory) = memories.of(index) {
                 history.push(ContactRecord {
                     first,
                     second,
@@ -66,7 +86,7 @@ impl<L: ContactLaw> NeighbourList<L> {
         }
     }
 
-    /// How many contacts may remember something.
+    /// How many contacts remember something.
     pub(crate) const fn entries(&self) -> usize {
         self.memories.len()
     }
@@ -96,7 +116,6 @@ impl<L: ContactLaw> NeighbourList<L> {
     /// ascending order of the `key` by which candidates are sorted.
     pub(crate) fn finish(
         &mut self,
-        stamp: u32,
         history: &[ContactRecord<ContactMemory<L>>],
         key: impl Fn(u32, u32) -> (u32, u32),
     ) {
@@ -105,14 +124,14 @@ impl<L: ContactLaw> NeighbourList<L> {
         if !Memories::<ContactMemory<L>>::ANY {
             return;
         }
-        self.memories.forget(count, history.len(), stamp);
+        self.memories.clear();
         let mut history = history.iter().peekable();
-        for (index, [first, second]) in self.bodies.iter().enumerate() {
+        for (index, [first, second]) in (0..).zip(&self.bodies) {
             let own = key(*first, *second);
             let of = |contact: &ContactRecord<ContactMemory<L>>| key(contact.first, contact.second);
             while history.next_if(|contact| of(contact) < own).is_some() {}
             if let Some(contact) = history.next_if(|contact| of(contact) == own) {
-                self.memories.keep(index, stamp, &contact.memory);
+                self.memories.push(index, contact.memory);
             }
         }
     }
@@ -181,50 +200,51 @@ impl<L: ContactLaw> NeighbourList<L> {
             .pair(first, second, self.prepared(candidate))
     }
 
-    /// What a candidate remembers that touched at the end of step `stamp`, if contacts remember anything.
+    /// What candidates remember, to be read in their order.
     #[inline(always)]
-    pub(crate) fn memory_of(&self, candidate: u32, stamp: u32) -> Option<&ContactMemory<L>> {
-        self.memories.of(candidate as usize, stamp)
+    pub(crate) fn memories(&self) -> Reader<'_, ContactMemory<L>> {
+        self.memories.reader()
     }
 
-    /// Copies what the contacts of a run remember from the end of step `stamp`.
-    #[inline(always)]
-    pub(crate) fn load_memories(
-        &self,
-        run: Range<usize>,
-        stamp: u32,
-        memories: &mut [ContactMemory<L>],
-    ) {
-        if Memories::<ContactMemory<L>>::ANY {
-            for (candidate, memory) in self.contacts.candidates()[run].iter().zip(memories) {
-                // Each straight to its place: through a temporary it would be copied twice.
-                match self.memory_of(*candidate, stamp) {
-                    Some(history) => *memory = *history,
-                    None => *memory = ContactMemory::<L>::default(),
-                }
-            }
-        }
+    /// Forgets what contacts remember.
+    pub(crate) fn forget(&mut self) {
+        self.memories.clear();
     }
 
-    /// Keeps what the contacts of a run remember at the end of step `stamp`.
+    /// Adds what a candidate remembers that comes later in the list than all before.
     #[inline(always)]
-    pub(crate) fn store_memories(
+    pub(crate) fn remember(&mut self, candidate: u32, memory: &ContactMemory<L>) {
+        self.memories.push(candidate, *memory);
+    }
+
+    /// Gets ready for [`run`](Self::run).
+    #[inline(always)]
+    pub(crate) fn begin_runs(&mut self) {
+        self.memories.begin(self.contacts.len());
+    }
+
+    /// The next of the runs that the contacts are evaluated in, and where it is put what each will remember at the
+    /// end of the step. `place` is how many memories belong to contacts before, and is zero at first.
+    #[inline(always)]
+    pub(crate) fn run(
         &mut self,
         run: Range<usize>,
-        stamp: u32,
-        memories: &[ContactMemory<L>],
-    ) {
-        if Memories::<ContactMemory<L>>::ANY {
-            for (candidate, memory) in self.contacts.candidates()[run].iter().zip(memories) {
-                self.memories.keep(*candidate as usize, stamp, memory);
-            }
-        }
+        place: &mut usize,
+    ) -> (Run<'_, L>, &mut [ContactMemory<L>]) {
+        let candidates = &self.contacts.candidates()[run.clone()];
+        let (memory, advanced) = self.memories.run(candidates, run.start, place);
+        let run = Run {
+            bodies: &self.contacts.bodies()[run],
+            candidates,
+            memory,
+            prepared: &self.prepared,
+        };
+        (run, advanced)
     }
 
-    /// Keeps what a candidate remembers at the end of step `stamp`.
-    #[inline(always)]
-    pub(crate) fn keep(&mut self, candidate: u32, stamp: u32, memory: &ContactMemory<L>) {
-        self.memories.keep(candidate as usize, stamp, memory);
+    /// Ends a step: contacts remember from now on what they were advanced to.
+    pub(crate) fn advance_memories(&mut self) {
+        self.memories.end(self.contacts.candidates());
     }
 
     /// Memory in bytes that the list has reserved.

@@ -24,7 +24,7 @@ impl<L: ContactLaw> Block<L> {
             buffer.iter_mut().for_each(Vec::clear);
             make_room(&mut buffer[0], self.pairs.entries() + self.halo.entries());
             make_room(&mut buffer[1], self.walls.entries());
-            self.save_history(listing.view.stamp, buffer);
+            self.save_history(buffer);
             buffer[0].sort_unstable_by_key(ContactRecord::pair);
             buffer.each_ref().map(Vec::as_slice)
         };
@@ -32,15 +32,15 @@ impl<L: ContactLaw> Block<L> {
         self.halo.clear();
         self.walls.clear();
         self.list(listing, partners);
-        self.finish(listing.view.stamp, memory);
+        self.finish(memory);
     }
 
-    /// Adds what the contacts of step `stamp` remember to `memory`.
-    pub(crate) fn save_history(&self, stamp: u32, memory: &mut ContactHistory<L>) {
+    /// Adds what the contacts remember to `memory`.
+    pub(crate) fn save_history(&self, memory: &mut ContactHistory<L>) {
         let [pairs, walls] = memory;
-        self.pairs.save_history(stamp, pairs);
-        self.halo.save_history(stamp, pairs);
-        self.walls.save_history(stamp, walls);
+        self.pairs.save_history(pairs);
+        self.halo.save_history(pairs);
+        self.walls.save_history(walls);
     }
 
     /// What `memory`, in ascending order, holds of the block's contacts.
@@ -109,10 +109,10 @@ impl<L: ContactLaw> Block<L> {
     }
 
     /// Makes filled lists ready for use, but for what the law has to [`prepare`](Self::prepare).
-    fn finish(&mut self, stamp: u32, [pairs, walls]: [&[ContactRecord<ContactMemory<L>>]; 2]) {
-        self.pairs.finish(stamp, pairs, pair);
-        self.halo.finish(stamp, pairs, pair);
-        self.walls.finish(stamp, walls, |index, wall| (index, wall));
+    fn finish(&mut self, [pairs, walls]: [&[ContactRecord<ContactMemory<L>>]; 2]) {
+        self.pairs.finish(pairs, pair);
+        self.halo.finish(pairs, pair);
+        self.walls.finish(walls, |index, wall| (index, wall));
     }
 
     /// Asks the law for the pairs of finished lists.

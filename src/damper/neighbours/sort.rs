@@ -34,7 +34,7 @@ impl<L: ContactLaw> Neighbours<L> {
             self.since_sort += 1;
             return Ok(());
         }
-        let mut memory = self.history(state.stamp);
+        let mut memory = self.history();
         let number = state.particles.id.clone();
         self.sort(state);
         for contact in memory.iter_mut().flatten() {

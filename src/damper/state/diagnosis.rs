@@ -55,11 +55,6 @@ impl State {
         self.step_start.impulses.extend_from_slice(impulses);
     }
 
-    /// Ends a step.
-    pub(crate) const fn end_step(&mut self) {
-        self.stamp = self.stamp.wrapping_add(1);
-    }
-
     /// What may be behind particles out of place.
     pub(crate) fn cause(&self) -> Cause {
         let radius = self.particles.smallest_radius;

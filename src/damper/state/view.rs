@@ -42,8 +42,6 @@ pub(crate) struct StateView<'a, C, L: ContactLaw> {
     pub(crate) id: &'a [u32],
     /// When in the step this is.
     pub(crate) step_time: StepTime,
-    /// Number of the last accepted step.
-    pub(crate) stamp: u32,
     /// Whether everything moves in the plane z = 0.
     pub(crate) planar: bool,
 }
