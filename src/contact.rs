@@ -139,17 +139,7 @@ impl Contact {
     #[must_use]
     #[inline(always)]
     pub fn slip(&self) -> DVec3 {
-        self.flattened(self.velocity + self.approach_speed() * self.normal)
-    }
-
-    /// A vector across the normal, or along it: the compiler sees what is always zero.
-    #[inline(always)]
-    pub(crate) fn flattened(&self, vector: DVec3) -> DVec3 {
-        if self.planar {
-            vector.truncate().extend(0.0)
-        } else {
-            vector
-        }
+        self.velocity + self.approach_speed() * self.normal
     }
 }
 

@@ -22,7 +22,7 @@ mod normal;
 mod onset;
 mod restitution;
 mod solver_parameters;
-mod turn;
+mod tangent;
 
 pub(crate) use contact_law::LawVisitor;
 pub use contact_law::{ContactLaw, ContactMemory, ForceLaw, Forces, ImpulseLaw, Impulses, LawKind};

@@ -108,6 +108,16 @@ impl Damping {
         }
     }
 
+    /// The overlap (m) at which spring and dashpot balance between bodies that part, where `ratio` is the damping
+    /// coefficient times the speed over the stiffness of the spring.
+    #[inline]
+    pub(super) fn balance(self, ratio: f64) -> f64 {
+        match self {
+            Self::Viscoelastic => ratio,
+            Self::Tsuji => fifth_root(ratio * ratio * ratio * ratio),
+        }
+    }
+
     /// Exponent of the overlap that the force grows with.
     pub(super) const fn exponent(self) -> Exponent {
         match self {

@@ -11,7 +11,7 @@ pub(super) enum Exponent {
 impl Exponent {
     /// Exponent p, and p (p-1) (p-2)/720.
     #[inline]
-    const fn constants(self) -> (f64, f64) {
+    pub(super) const fn constants(self) -> (f64, f64) {
         match self {
             Self::Quarter => (0.25, 0.328_125 / 720.0),
             Self::Half => (0.5, 0.375 / 720.0),

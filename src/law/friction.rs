@@ -1,5 +1,6 @@
 use glam::DVec3;
 
+use super::tangent::Tangent;
 use crate::numbers::at_least;
 
 use crate::contact::{Bodies, Contact};
@@ -90,10 +91,19 @@ impl Friction {
     /// The tangential force on the first body under the normal force `pressing` (N, not negative).
     #[inline(always)]
     pub(super) fn force(self, grip: &Grip, contact: &Contact, pressing: f64) -> DVec3 {
-        let slip = contact.slip();
+        if contact.planar {
+            self.tangential::<f64>(grip, contact, pressing)
+        } else {
+            self.tangential::<DVec3>(grip, contact, pressing)
+        }
+    }
+
+    #[inline(always)]
+    fn tangential<T: Tangent>(self, grip: &Grip, contact: &Contact, pressing: f64) -> DVec3 {
+        let slip = T::slip(contact);
         let limit = grip.friction * pressing;
         let fades = at_least(contact.elapsed * limit * grip.stop, self.slip_speed);
-        slip * (-limit / at_least(slip.length(), fades))
+        (slip * (-limit / at_least(slip.length(), fades))).in_space(contact)
     }
 }
 
@@ -146,7 +156,7 @@ impl Rolling {
 
 /// The factor that cuts `force` down to the length `limit` (not negative).
 #[inline(always)]
-pub(super) fn share(force: DVec3, limit: f64) -> f64 {
+pub(super) fn share(force: impl Tangent, limit: f64) -> f64 {
     limit / at_least(at_least(force.length(), limit), TINY)
 }
 

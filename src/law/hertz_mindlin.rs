@@ -2,7 +2,7 @@ use glam::DVec3;
 
 use super::friction::{PART_PER_STEP, Rolling, SLIP_INVERSE_MASS, share};
 use super::normal::{Normal, NormalCoefficients, NormalForce, strict_law};
-use super::turn::turned;
+use super::tangent::Tangent;
 use super::{ContactLaw, ForceLaw, Forces, LawError};
 use crate::contact::{Bodies, Contact, ContactForce, Onset, Stored};
 use crate::error::{Bound, ValueError};
@@ -61,25 +61,15 @@ pub struct Coefficients {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TangentialSpring {
-    /// What the spring bears, `k_t xi`, in N.
+    /// What the spring bears, `k_t xi`, in N. In the plane z = 0 it has a z alone, its component along the normal
+    /// turned by a quarter, which turns with the contact.
     load: DVec3,
-    /// Relative velocity in the tangent plane in m/s.
+    /// Relative velocity in the tangent plane in m/s, likewise.
     slip: DVec3,
     /// Square root of the overlap in m^(1/2).
     root: f64,
     /// Normal force in N.
     force: f64,
-}
-
-/// The tangential force at one instant, in parts.
-#[derive(Debug, Clone, Copy)]
-struct Tangential {
-    /// What the spring bears, in N.
-    load: DVec3,
-    /// Relative velocity in the tangent plane in m/s.
-    slip: DVec3,
-    /// The force on the first body, in N.
-    force: DVec3,
 }
 
 impl HertzMindlin {
@@ -101,35 +91,56 @@ impl HertzMindlin {
         Ok(self)
     }
 
+    /// The force of a contact, and what it remembers if that is at the end of a step.
     #[inline(always)]
-    fn tangential(
+    fn answer(
         &self,
         coefficients: &Coefficients,
         contact: &Contact,
         normal: &Normal,
         memory: &TangentialSpring,
-    ) -> Tangential {
-        let (slip, dt) = (contact.slip(), contact.elapsed);
+    ) -> (ContactForce, TangentialSpring) {
+        if contact.planar {
+            self.answer_in::<f64>(coefficients, contact, normal, memory)
+        } else {
+            self.answer_in::<DVec3>(coefficients, contact, normal, memory)
+        }
+    }
+
+    #[inline(always)]
+    fn answer_in<T: Tangent>(
+        &self,
+        coefficients: &Coefficients,
+        contact: &Contact,
+        normal: &Normal,
+        memory: &TangentialSpring,
+    ) -> (ContactForce, TangentialSpring) {
+        let (slip, dt) = (T::slip(contact), contact.elapsed);
+        let [load, slipped] = [memory.load, memory.slip].map(T::from_memory);
         // While the overlap grows the load is kept, while it falls the stretch.
         let kept = at_most(normal.root / memory.root, 1.0);
         // The trapezoidal rule. A contact that begins has slipped for half of the step on average.
         let gain = coefficients.shear * normal.root * (0.5 * dt);
-        let load = turned(
-            contact.flattened(memory.load * kept + memory.slip * gain),
-            contact,
-        ) + slip * gain;
+        let load = (load * kept + slipped * gain).turned(contact) + slip * gain;
 
         let bearable = coefficients.stop * (1.0 / dt);
         let damping = slip * at_most(self.damping_ratio * normal.resistance, bearable);
-        let limit = coefficients.friction * at_least(normal.force, 0.0);
+        let pressing = at_least(normal.force, 0.0);
         let whole = load + damping;
         // Where the contact slides, the load falls along with the force.
-        let share = share(whole, limit);
-        Tangential {
-            load: load * share,
-            slip,
-            force: whole * -share,
-        }
+        let share = share(whole, coefficients.friction * pressing);
+        let force = ContactForce {
+            normal: normal.force,
+            tangential: -(whole * share).in_space(contact),
+            couple: coefficients.rolling.couple(contact, pressing),
+        };
+        let memory = TangentialSpring {
+            load: (load * share).to_memory(),
+            slip: slip.to_memory(),
+            root: normal.root,
+            force: normal.force,
+        };
+        (force, memory)
     }
 }
 
@@ -178,15 +189,7 @@ impl ForceLaw for HertzMindlin {
         memory: &TangentialSpring,
     ) -> ContactForce {
         let normal = self.normal.at(&coefficients.normal, contact, memory.force);
-        ContactForce {
-            normal: normal.force,
-            tangential: self
-                .tangential(coefficients, contact, &normal, memory)
-                .force,
-            couple: coefficients
-                .rolling
-                .couple(contact, at_least(normal.force, 0.0)),
-        }
+        self.answer(coefficients, contact, &normal, memory).0
     }
 
     #[inline(always)]
@@ -197,13 +200,7 @@ impl ForceLaw for HertzMindlin {
         memory: &TangentialSpring,
     ) -> TangentialSpring {
         let normal = self.normal.at(&coefficients.normal, contact, memory.force);
-        let Tangential { load, slip, .. } = self.tangential(coefficients, contact, &normal, memory);
-        TangentialSpring {
-            load,
-            slip,
-            root: normal.root,
-            force: normal.force,
-        }
+        self.answer(coefficients, contact, &normal, memory).1
     }
 
     #[inline]
@@ -225,22 +222,7 @@ impl ForceLaw for HertzMindlin {
     ) -> (ContactForce, TangentialSpring) {
         let own = &coefficients.normal;
         let normal = self.normal.at_onset(own, contact, memory.force, onset);
-        let Tangential { load, slip, force } =
-            self.tangential(coefficients, contact, &normal, memory);
-        let answer = ContactForce {
-            normal: normal.force,
-            tangential: force,
-            couple: coefficients
-                .rolling
-                .couple(contact, at_least(normal.force, 0.0)),
-        };
-        let memory = TangentialSpring {
-            load,
-            slip,
-            root: normal.root,
-            force: normal.force,
-        };
-        (answer, memory)
+        self.answer(coefficients, contact, &normal, memory)
     }
 
     fn stored(
