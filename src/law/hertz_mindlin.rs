@@ -120,8 +120,9 @@ impl HertzMindlin {
         // While the overlap grows the load is kept, while it falls the stretch.
         let kept = at_most(normal.root / memory.root, 1.0);
         // The trapezoidal rule. A contact that begins has slipped for half of the step on average.
-        let gain = coefficients.shear * normal.root * (0.5 * dt);
-        let load = (load * kept + slipped * gain).turned(contact) + slip * gain;
+        let gain = coefficients.shear * (0.5 * dt);
+        let grown = gain * at_least(normal.root, memory.root);
+        let load = (load + slipped * grown).turned(contact) * kept + slip * (gain * normal.root);
 
         let bearable = coefficients.stop * (1.0 / dt);
         let damping = slip * at_most(self.damping_ratio * normal.resistance, bearable);
@@ -135,8 +136,8 @@ impl HertzMindlin {
             couple: coefficients.rolling.couple(contact, pressing),
         };
         let memory = TangentialSpring {
-            load: (load * share).to_memory(),
-            slip: slip.to_memory(),
+            load: (load * share).remembered(memory.load),
+            slip: slip.remembered(memory.slip),
             root: normal.root,
             force: normal.force,
         };

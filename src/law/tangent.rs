@@ -23,9 +23,11 @@ pub(super) trait Tangent: Copy + Add<Output = Self> + Mul<f64, Output = Self> {
     /// The vector in space.
     fn in_space(self, contact: &Contact) -> DVec3;
 
-    /// What is remembered of a tangent, and back: in the plane the number is the z.
-    fn to_memory(self) -> DVec3;
+    /// What is remembered of a tangent: in the plane the number is the z.
     fn from_memory(memory: DVec3) -> Self;
+
+    /// What is remembered next, after `memory`.
+    fn remembered(self, memory: DVec3) -> DVec3;
 }
 
 /// In space.
@@ -47,9 +49,10 @@ impl Tangent for DVec3 {
         let turned = flat + normal.cross(flat) * tangent;
         // The root of 1 + missing/square, by its Pade approximant: to a part in 1e15 where the contact turns
         // by 0.03 rad. What stood upright on the plane has no direction in it, and hardly any length then.
-        let square = turned.length_squared();
-        let missing = off * off - flat.length_squared() * (tangent * tangent);
-        let whole = 4.0 * square + f64::MIN_POSITIVE;
+        let flat = self.length_squared() - off * off;
+        let square = tangent * tangent;
+        let missing = off * off - flat * square;
+        let whole = 4.0 * (flat + flat * square) + f64::MIN_POSITIVE;
         turned * ((whole + 3.0 * missing) / (whole + missing))
     }
 
@@ -64,13 +67,13 @@ impl Tangent for DVec3 {
     }
 
     #[inline(always)]
-    fn to_memory(self) -> DVec3 {
-        self
+    fn from_memory(memory: DVec3) -> Self {
+        memory
     }
 
     #[inline(always)]
-    fn from_memory(memory: DVec3) -> Self {
-        memory
+    fn remembered(self, _: DVec3) -> DVec3 {
+        self
     }
 }
 
@@ -98,13 +101,14 @@ impl Tangent for f64 {
     }
 
     #[inline(always)]
-    fn to_memory(self) -> DVec3 {
-        DVec3::new(0.0, 0.0, self)
-    }
-
-    #[inline(always)]
     fn from_memory(memory: DVec3) -> Self {
         memory.z
+    }
+
+    /// What is zero is copied: constants would keep the compiler from answering several contacts at a time.
+    #[inline(always)]
+    fn remembered(self, memory: DVec3) -> DVec3 {
+        DVec3 { z: self, ..memory }
     }
 }
 
