@@ -157,6 +157,7 @@ pub(super) struct Batch<L: ContactLaw> {
     /// Of walls: velocity that they gain along the normal per unit impulse, 1/kg.
     wall_inverse_mass: Column,
     kinds: Vec<L::Coefficients>,
+    force: Column,
     push: Lanes,
     torques: [Lanes; 2],
 }
@@ -173,6 +174,7 @@ impl<L: ContactLaw> Default for Batch<L> {
             approach: [0.0; BATCH_SIZE],
             wall_inverse_mass: [0.0; BATCH_SIZE],
             kinds: Vec::with_capacity(BATCH_SIZE),
+            force: [0.0; BATCH_SIZE],
             push: Lanes::ZERO,
             torques: [Lanes::ZERO; 2],
         }
@@ -387,23 +389,35 @@ impl<L: ForceLaw> Batch<L> {
     ) -> ContactMemory<L> {
         let contact = self.contact::<K, S>(n, step_time);
         let answer = law.force(kind, &contact, memory);
-        self.store::<K, S, COUPLE>(n, contact.normal, &answer);
+        self.store::<S, COUPLE>(n, &answer);
         law.advance(kind, &contact, memory)
     }
 
-    /// Stores what an answer does to the two bodies.
+    /// Stores an answer.
     #[inline(always)]
-    fn store<K: ContactKind, S: Space, const COUPLE: bool>(
-        &mut self,
-        n: usize,
-        normal: DVec3,
-        answer: &ContactForce,
-    ) {
-        let levers = self.levers::<K>(n);
-        let (push, [first, second]) = force_and_torques::<S, COUPLE>(normal, levers, answer);
-        self.push.set_vector::<S>(n, push);
-        self.torques[0].set_spin::<S>(n, first);
-        self.torques[1].set_spin::<S>(n, second);
+    fn store<S: Space, const COUPLE: bool>(&mut self, n: usize, answer: &ContactForce) {
+        self.force[n] = answer.normal;
+        self.push.set_vector::<S>(n, answer.tangential);
+        if COUPLE {
+            self.torques[0].set_spin::<S>(n, answer.couple);
+        }
+    }
+
+    /// Works out what the answers do to the bodies.
+    #[inline(never)]
+    pub(super) fn work_out_reactions<K: ContactKind, S: Space, const COUPLE: bool>(&mut self) {
+        for n in 0..self.count.min(BATCH_SIZE) {
+            let normal = S::flattened(self.towards.get(n));
+            let mut answer = ContactForce::new(self.force[n], S::flattened(self.push.get(n)));
+            if COUPLE {
+                answer.couple = S::flattened_spin(self.torques[0].get(n));
+            }
+            let levers = self.levers::<K>(n);
+            let (push, [first, second]) = force_and_torques::<S, COUPLE>(normal, levers, &answer);
+            self.push.set_vector::<S>(n, push);
+            self.torques[0].set_spin::<S>(n, first);
+            self.torques[1].set_spin::<S>(n, second);
+        }
     }
 
     /// Has `law` answer once more where bodies may have met or may part within the step.
@@ -420,9 +434,9 @@ impl<L: ForceLaw> Batch<L> {
         for n in 0..self.count.min(BATCH_SIZE) {
             if self.is_near_onset(n, step_time) {
                 let kind = only.unwrap_or_else(|| &self.kinds[n]);
-                let (contact, answer, memory) =
+                let (_, answer, memory) =
                     self.at_onset::<K, S>(law, kind, n, step_time, acceleration(n), &memories[n]);
-                self.store::<K, S, true>(n, contact.normal, &answer);
+                self.store::<S, true>(n, &answer);
                 if END {
                     advanced[n] = memory;
                 }

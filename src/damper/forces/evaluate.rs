@@ -237,6 +237,11 @@ fn evaluate_pairs<C: Cavity, L: ForceLaw, S: Space, const END: bool>(
         let memories = (run.memory, advanced);
         batch.correct_onsets::<SpherePair, S, END>(view.law, only, time, acceleration, memories);
     }
+    if only.is_some_and(|only| !view.law.has_couple(only)) {
+        batch.work_out_reactions::<SpherePair, S, false>();
+    } else {
+        batch.work_out_reactions::<SpherePair, S, true>();
+    }
 }
 
 /// Has the law answer a run of touching walls.
@@ -261,5 +266,10 @@ fn evaluate_walls<C: Cavity, L: ForceLaw, S: Space, const END: bool>(
             |n: usize| view.acceleration_at_wall(bodies[n][0] as usize, bodies[n][1]);
         let memories = (run.memory, advanced);
         batch.correct_onsets::<SphereWall, S, END>(view.law, only, time, acceleration, memories);
+    }
+    if only.is_some_and(|only| !view.law.has_couple(only)) {
+        batch.work_out_reactions::<SphereWall, S, false>();
+    } else {
+        batch.work_out_reactions::<SphereWall, S, true>();
     }
 }
