@@ -23,11 +23,14 @@ const GAIN: f64 = 4.0;
 /// 4/50^3, and a thousand bounces of one ball change its energy by less than 1e-4.
 const ELASTIC_STEPS: f64 = 50.0;
 
-/// The fewest steps to a contact in which damping takes more energy than integration can add to an
-/// oscillation `quickness` times as fast as the contact's own.
+/// The fewest steps to half an oscillation in which damping takes more energy than integration can add.
+pub(super) fn damped_steps(restitution: f64) -> f64 {
+    libm::cbrt(GAIN / (1.0 - restitution * restitution))
+}
+
+/// The same to a contact with an oscillation `quickness` times as fast as its own.
 fn fewest_steps(restitution: f64, quickness: f64) -> f64 {
-    let loss = 1.0 - restitution * restitution;
-    (quickness * libm::cbrt(GAIN / loss)).clamp(FEWEST_STEPS, ELASTIC_STEPS)
+    (quickness * damped_steps(restitution)).clamp(FEWEST_STEPS, ELASTIC_STEPS)
 }
 
 /// Hertz's spring with damping, for a table of materials.
