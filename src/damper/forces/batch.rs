@@ -12,8 +12,7 @@ use glam::DVec3;
 use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce, Onset};
 use crate::damper::state::{
-    Space, StateView, StepTime, Volume, force_and_torques, levers, normal_and_overlap,
-    surface_velocity,
+    Space, StateView, StepTime, force_and_torques, levers, normal_and_overlap, surface_velocity,
 };
 use crate::law::{ContactLaw, ContactMemory, ForceLaw};
 use crate::numbers::at_least;
@@ -469,7 +468,7 @@ impl<L: ForceLaw> Batch<L> {
     }
 
     /// The same of any contact.
-    pub(super) fn evaluate_contact<K: ContactKind>(
+    pub(super) fn evaluate_contact<K: ContactKind, S: Space>(
         &self,
         law: &L,
         kind: &L::Coefficients,
@@ -479,9 +478,9 @@ impl<L: ForceLaw> Batch<L> {
         memory: &ContactMemory<L>,
     ) -> (Contact, ContactForce, ContactMemory<L>) {
         if law.corrects_onset() && self.is_near_onset(n, step_time) {
-            return self.at_onset::<K, Volume>(law, kind, n, step_time, acceleration, memory);
+            return self.at_onset::<K, S>(law, kind, n, step_time, acceleration, memory);
         }
-        let contact = self.contact::<K, Volume>(n, step_time);
+        let contact = self.contact::<K, S>(n, step_time);
         let answer = law.force(kind, &contact, memory);
         (contact, answer, law.advance(kind, &contact, memory))
     }

@@ -120,7 +120,7 @@ impl<L: ForceLaw> BlockForces<L> {
                 sums.add(*j as usize, -push, second);
             }
             if END && observer.wants_contacts() {
-                report_pairs(view, &run, batch, observer);
+                report_pairs::<C, L, S>(view, &run, batch, observer);
             }
         }
         if END {
@@ -161,7 +161,7 @@ impl<L: ForceLaw> BlockForces<L> {
                 }
             }
             if END && observer.wants_contacts() {
-                report_pairs(view, &run, batch, observer);
+                report_pairs::<C, L, S>(view, &run, batch, observer);
             }
         }
         if END {
@@ -202,7 +202,7 @@ impl<L: ForceLaw> BlockForces<L> {
                 }
             }
             if END && observer.wants_contacts() {
-                report_walls(view, &run, batch, observer);
+                report_walls::<C, L, S>(view, &run, batch, observer);
             }
         }
         if END {

@@ -4,13 +4,13 @@ use super::batch::{Batch, SpherePair, SphereWall};
 use crate::cavity::Cavity;
 use crate::contact::Partner;
 use crate::damper::neighbours::Run;
-use crate::damper::state::StateView;
+use crate::damper::state::{Space, StateView};
 use crate::law::ForceLaw;
 use crate::observer::{ContactEvent, Observer};
 
 /// Tells `observer` of the pairs of a run, which are in `batch`.
 #[cold]
-pub(super) fn report_pairs<C: Cavity, L: ForceLaw>(
+pub(super) fn report_pairs<C: Cavity, L: ForceLaw, S: Space>(
     view: &StateView<'_, C, L>,
     run: &Run<'_, L>,
     batch: &Batch<L>,
@@ -20,7 +20,7 @@ pub(super) fn report_pairs<C: Cavity, L: ForceLaw>(
         let (index, other) = (bodies[0] as usize, bodies[1] as usize);
         let kind = run.pair_coefficients(view, n);
         let acceleration = view.acceleration_of_pair(bodies);
-        let (contact, force, memory) = batch.evaluate_contact::<SpherePair>(
+        let (contact, force, memory) = batch.evaluate_contact::<SpherePair, S>(
             view.law,
             &kind,
             n,
@@ -45,7 +45,7 @@ pub(super) fn report_pairs<C: Cavity, L: ForceLaw>(
 
 /// Tells `observer` of the contacts of a run with walls, which are in `batch`.
 #[cold]
-pub(super) fn report_walls<C: Cavity, L: ForceLaw>(
+pub(super) fn report_walls<C: Cavity, L: ForceLaw, S: Space>(
     view: &StateView<'_, C, L>,
     run: &Run<'_, L>,
     batch: &Batch<L>,
@@ -55,7 +55,7 @@ pub(super) fn report_walls<C: Cavity, L: ForceLaw>(
         let (index, wall) = (*index as usize, *wall);
         let kind = view.coefficients.wall(view.species[index]);
         let acceleration = view.acceleration_at_wall(index, wall);
-        let (contact, force, memory) = batch.evaluate_contact::<SphereWall>(
+        let (contact, force, memory) = batch.evaluate_contact::<SphereWall, S>(
             view.law,
             kind,
             n,
