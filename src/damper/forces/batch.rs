@@ -21,6 +21,8 @@ use crate::numbers::at_least;
 pub(super) trait ContactKind {
     /// Whether two spheres meet; else a sphere and a wall.
     const IS_PAIR: bool;
+    /// Whether the second body may be a wall that yields.
+    const YIELDS: bool;
 }
 
 /// Two spheres.
@@ -28,6 +30,7 @@ pub(super) struct SpherePair;
 
 impl ContactKind for SpherePair {
     const IS_PAIR: bool = true;
+    const YIELDS: bool = false;
 }
 
 /// A sphere and a wall.
@@ -35,6 +38,15 @@ pub(super) struct SphereWall;
 
 impl ContactKind for SphereWall {
     const IS_PAIR: bool = false;
+    const YIELDS: bool = true;
+}
+
+/// A sphere and a wall whose motion is given.
+struct SphereFixedWall;
+
+impl ContactKind for SphereFixedWall {
+    const IS_PAIR: bool = false;
+    const YIELDS: bool = false;
 }
 
 /// How many contacts are side by side at the most.
@@ -308,10 +320,10 @@ impl<L: ForceLaw> Batch<L> {
             elapsed: step_time.elapsed,
             correction: step_time.correction,
             planar: S::PLANAR,
-            wall_inverse_mass: if K::IS_PAIR {
-                0.0
-            } else {
+            wall_inverse_mass: if K::YIELDS {
                 self.wall_inverse_mass[n]
+            } else {
+                0.0
             },
             ..Contact::new(normal, self.overlap[n], velocity)
         }
@@ -330,16 +342,32 @@ impl<L: ForceLaw> Batch<L> {
     ) {
         self.work_out_kinematics::<K, S>();
         if let Some(only) = only {
-            if law.has_couple(only) {
-                self.evaluate_alike::<K, S, END, true>(law, only, step_time, memories);
-            } else {
-                self.evaluate_alike::<K, S, END, false>(law, only, step_time, memories);
+            match (law.has_couple(only), K::YIELDS && !self.has_yielding_wall()) {
+                (true, true) => self.evaluate_alike::<SphereFixedWall, S, END, true>(
+                    law, only, step_time, memories,
+                ),
+                (true, false) => {
+                    self.evaluate_alike::<K, S, END, true>(law, only, step_time, memories)
+                }
+                (false, true) => self.evaluate_alike::<SphereFixedWall, S, END, false>(
+                    law, only, step_time, memories,
+                ),
+                (false, false) => {
+                    self.evaluate_alike::<K, S, END, false>(law, only, step_time, memories)
+                }
             }
         } else {
             self.kinds.clear();
             self.kinds.extend(kinds);
             self.evaluate_mixed::<K, S, END>(law, step_time, memories);
         }
+    }
+
+    /// Whether a wall among the contacts yields.
+    #[inline(always)]
+    fn has_yielding_wall(&self) -> bool {
+        let own = &self.wall_inverse_mass[..self.count.min(BATCH_SIZE)];
+        own.iter().any(|inverse_mass| *inverse_mass > 0.0)
     }
 
     #[inline(never)]
