@@ -68,8 +68,8 @@ pub struct TangentialSpring {
     /// What the spring bears, `k_t xi`, in N. In the plane z = 0 it has a z alone, its component along the normal
     /// turned by a quarter, which turns with the contact.
     load: DVec3,
-    /// Relative velocity in the tangent plane in m/s, likewise.
-    slip: DVec3,
+    /// What it bears more with time for the slip, `k_t v_t`, in N/s, likewise.
+    rate: DVec3,
     /// Tangential stiffness in N/m.
     stiffness: f64,
     /// Normal force in N.
@@ -120,7 +120,7 @@ impl HertzMindlin {
         memory: &TangentialSpring,
     ) -> (ContactForce, TangentialSpring) {
         let (slip, dt) = (T::slip(contact), contact.elapsed);
-        let [load, slipped] = [memory.load, memory.slip].map(T::from_memory);
+        let [load, rate] = [memory.load, memory.rate].map(T::from_memory);
         // While the overlap grows the load is kept, while it falls the stretch.
         let step = 2.0 * contact.correction;
         let resolved = coefficients.resolved * (1.0 / (step * step));
@@ -128,8 +128,9 @@ impl HertzMindlin {
         let kept = at_most(stiffness / memory.stiffness, 1.0);
         // The trapezoidal rule. A contact that begins has slipped for half of the step on average.
         let half = 0.5 * dt;
-        let grown = at_least(stiffness, memory.stiffness) * half;
-        let load = (load + slipped * grown).turned(contact) * kept + slip * (stiffness * half);
+        let load = (load + rate * half).turned(contact) * kept;
+        let rate = slip * stiffness;
+        let load = load + rate * half;
 
         let bearable = coefficients.stop * (1.0 / dt);
         let damping = slip * at_most(self.damping_ratio * normal.resistance, bearable);
@@ -144,7 +145,7 @@ impl HertzMindlin {
         };
         let memory = TangentialSpring {
             load: (load * share).remembered(memory.load),
-            slip: slip.remembered(memory.slip),
+            rate: rate.remembered(memory.rate),
             stiffness,
             force: normal.force,
         };
@@ -253,9 +254,9 @@ impl ForceLaw for HertzMindlin {
     }
 
     fn tell_memory(&self, memory: &TangentialSpring, tell: &mut dyn FnMut(f64)) {
-        let [load, slip] = [memory.load, memory.slip].map(|vector| vector.to_array());
+        let [load, rate] = [memory.load, memory.rate].map(|vector| vector.to_array());
         load.into_iter()
-            .chain(slip)
+            .chain(rate)
             .chain([memory.stiffness, memory.force])
             .for_each(tell);
     }
@@ -263,7 +264,7 @@ impl ForceLaw for HertzMindlin {
     fn recall_memory(&self, told: &mut dyn Iterator<Item = f64>) -> Option<TangentialSpring> {
         Some(TangentialSpring {
             load: vector(told)?,
-            slip: vector(told)?,
+            rate: vector(told)?,
             stiffness: told.next()?,
             force: told.next()?,
         })

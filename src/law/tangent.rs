@@ -49,11 +49,11 @@ impl Tangent for DVec3 {
         let turned = flat + normal.cross(flat) * tangent;
         // The root of 1 + missing/square, by its Pade approximant: to a part in 1e15 where the contact turns
         // by 0.03 rad. What stood upright on the plane has no direction in it, and hardly any length then.
-        let flat = self.length_squared() - off * off;
-        let square = tangent * tangent;
-        let missing = off * off - flat * square;
-        let whole = 4.0 * (flat + flat * square) + f64::MIN_POSITIVE;
-        turned * ((whole + 3.0 * missing) / (whole + missing))
+        let (square, off) = (tangent * tangent, off * off);
+        let left = self.length_squared() - off;
+        let before = left * (4.0 + square) + (3.0 * off + f64::MIN_POSITIVE);
+        let after = left * (4.0 + 3.0 * square) + (off + f64::MIN_POSITIVE);
+        turned * (before / after)
     }
 
     #[inline(always)]
