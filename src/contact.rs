@@ -107,7 +107,8 @@ pub struct Contact {
     /// a wall of a container that yields; zero if it does not, and for a pair (the law knows its masses).
     /// The inverse effective mass along the normal is larger by as much.
     pub wall_inverse_mass: f64,
-    /// Whether the bodies move in the plane z = 0. Normal and velocity have no z there, and spins z alone.
+    /// Whether the bodies move in the plane z = 0: normal and velocity have no z, spins have z alone, and a law may
+    /// leave out the rest. It is known when the program is compiled, so that asking costs nothing.
     pub planar: bool,
 }
 

@@ -37,9 +37,14 @@ const GREATEST_TURN: f64 = 1.25;
 /// one step.
 ///
 /// # Time step
-/// As for [`HertzTsuji`](crate::HertzTsuji#time-step), and short enough for the tangential oscillation, which
-/// is quicker than the normal one because it moves 2/7 m*: about two elevenths of a contact duration.
-/// Where damping is weak, steps are counted on the tangential oscillation: there are twice as many.
+/// As for [`HertzTsuji`](crate::HertzTsuji#time-step). The tangential oscillation is quicker than the normal one,
+/// because it moves 2/7 m*: of an impact at the reference speed a step resolves it to the greatest overlap if it is
+/// two elevenths of the contact duration or less. In a longer step, and in a harder impact, `k_t` grows no further
+/// than where [`VelocityVerlet`](crate::VelocityVerlet) turns the oscillation by 1.25 rad in a step. With friction of
+/// 0.2 and a restitution of 0.75, tangential velocities after impacts at any angle with any spin are then off by
+/// 0.9 % of the impact speed (RMS) at the longest step, a quarter of the duration, and by 0.7 % at two elevenths; with
+/// friction of 1 by 5 %, with either. Where damping is weak (e above 0.86), steps are counted on the tangential
+/// oscillation: there are twice as many.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HertzMindlin {
     normal: NormalForce,
@@ -65,8 +70,8 @@ pub struct Coefficients {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TangentialSpring {
-    /// What the spring bears, `k_t xi`, in N. In the plane z = 0 it has a z alone, its component along the normal
-    /// turned by a quarter, which turns with the contact.
+    /// What the spring bears, `k_t xi`, in N. In the plane z = 0 it is a number, its component along the normal
+    /// turned by a quarter, which turns with the contact: the z of this.
     load: DVec3,
     /// What it bears more with time for the slip, `k_t v_t`, in N/s, likewise.
     rate: DVec3,
@@ -122,6 +127,7 @@ impl HertzMindlin {
         let (slip, dt) = (T::slip(contact), contact.elapsed);
         let [load, rate] = [memory.load, memory.rate].map(T::from_memory);
         // While the overlap grows the load is kept, while it falls the stretch.
+        // Zero, and no bound, where velocities are not predicted: other integrators bear more.
         let step = 2.0 * contact.correction;
         let resolved = coefficients.resolved * (1.0 / (step * step));
         let stiffness = at_most(coefficients.shear * normal.root, resolved);
@@ -447,5 +453,51 @@ mod tests {
         let duration = weak.elastic_impact(&bodies, 1.0).unwrap().duration();
         assert!(limit < duration / 12.0, "{}", duration / limit);
         assert!(law.tangential_damping(-1.0).is_err());
+    }
+
+    /// What a law answers over 100 steps in which a contact turns, slips back and forth, and twists.
+    fn answers(law: &HertzMindlin, planar: bool) -> Vec<DVec3> {
+        let coefficients = law.coefficients(&paper_bodies()[1]).unwrap();
+        let mut memory = TangentialSpring::default();
+        let step = |n: i32| {
+            let time = 0.05 * f64::from(n);
+            let normal = dvec3((0.02 * time).cos(), (0.02 * time).sin(), 0.0);
+            let velocity = dvec3(0.3 * (3.0 * time).sin(), 0.4 * time.cos(), 0.0);
+            let mut contact = Contact::new(normal, 2e-5 * (2.0 + time.sin()), velocity);
+            contact.spins = [30.0 * DVec3::Z, -20.0 * DVec3::Z];
+            contact.elapsed = 2e-5;
+            contact.correction = 1e-5;
+            contact.planar = planar;
+            let force = law.force(&coefficients, &contact, &memory).tangential;
+            memory = law.advance(&coefficients, &contact, &memory);
+            force
+        };
+        (0..100).map(step).collect()
+    }
+
+    #[test]
+    fn in_the_plane_a_number_stands_for_the_tangential_vector() {
+        let law = HertzMindlin::new(acrylic(0.75, 0.3));
+        let [space, plane] = [false, true].map(|planar| answers(&law, planar));
+        for (space, plane) in space.iter().zip(&plane) {
+            assert!((*space - *plane).length() < 1e-9 * space.length().max(1.0));
+        }
+    }
+
+    /// Energy and velocities after impacts in a step that does not resolve the tangential oscillation.
+    #[test]
+    fn a_long_step_softens_the_tangential_spring_and_gains_nothing() {
+        let law = HertzMindlin::new(acrylic(0.75, 0.2));
+        let (mut sum, mut count) = (0.0, 0.0);
+        for (mut fine, mut coarse) in oblique(&law).zip(oblique(&law)) {
+            let before = coarse.kinetic_energy();
+            fine.run_in(&mut VelocityVerlet, 400.0);
+            coarse.run_in(&mut VelocityVerlet, 4.0);
+            assert!(coarse.kinetic_energy() < before);
+            let off = coarse.velocity.get(0).x - fine.velocity.get(0).x;
+            (sum, count) = (sum + off * off, count + 1.0);
+        }
+        let deviation: f64 = sum / count;
+        assert!(deviation.sqrt() < 0.012, "{}", deviation.sqrt());
     }
 }

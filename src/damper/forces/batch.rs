@@ -330,7 +330,8 @@ impl<L: ForceLaw> Batch<L> {
     }
 
     /// Has `law` answer the contacts, with the `only` coefficients that there are, or else with those
-    /// of each contact in turn. With `END` their memory advances.
+    /// of each contact in turn. With `END` their memory advances. `acceleration` is that of a contact's first
+    /// centre relative to its second body, as it was evaluated last (m/s^2).
     #[inline(always)]
     pub(super) fn evaluate<K: ContactKind, S: Space, const END: bool>(
         &mut self,
@@ -338,28 +339,45 @@ impl<L: ForceLaw> Batch<L> {
         only: Option<&L::Coefficients>,
         kinds: impl Iterator<Item = L::Coefficients>,
         step_time: StepTime,
-        memories: Memories<'_, L>,
+        (memory, advanced): Memories<'_, L>,
+        acceleration: impl Fn(usize) -> DVec3,
     ) {
         self.work_out_kinematics::<K, S>();
+        let memories = (memory, &mut *advanced);
         if let Some(only) = only {
-            match (law.has_couple(only), K::YIELDS && !self.has_yielding_wall()) {
-                (true, true) => self.evaluate_alike::<SphereFixedWall, S, END, true>(
-                    law, only, step_time, memories,
-                ),
-                (true, false) => {
-                    self.evaluate_alike::<K, S, END, true>(law, only, step_time, memories)
-                }
-                (false, true) => self.evaluate_alike::<SphereFixedWall, S, END, false>(
-                    law, only, step_time, memories,
-                ),
-                (false, false) => {
-                    self.evaluate_alike::<K, S, END, false>(law, only, step_time, memories)
-                }
+            if K::YIELDS && !self.has_yielding_wall() {
+                self.evaluate_only::<SphereFixedWall, S, END>(law, only, step_time, memories);
+            } else {
+                self.evaluate_only::<K, S, END>(law, only, step_time, memories);
             }
         } else {
             self.kinds.clear();
             self.kinds.extend(kinds);
             self.evaluate_mixed::<K, S, END>(law, step_time, memories);
+        }
+        if law.corrects_onset() {
+            let memories = (memory, advanced);
+            self.correct_onsets::<K, S, END>(law, only, step_time, acceleration, memories);
+        }
+        if only.is_some_and(|only| !law.has_couple(only)) {
+            self.work_out_reactions::<K, S, false>();
+        } else {
+            self.work_out_reactions::<K, S, true>();
+        }
+    }
+
+    #[inline(always)]
+    fn evaluate_only<K: ContactKind, S: Space, const END: bool>(
+        &mut self,
+        law: &L,
+        only: &L::Coefficients,
+        step_time: StepTime,
+        memories: Memories<'_, L>,
+    ) {
+        if law.has_couple(only) {
+            self.evaluate_alike::<K, S, END, true>(law, only, step_time, memories);
+        } else {
+            self.evaluate_alike::<K, S, END, false>(law, only, step_time, memories);
         }
     }
 
@@ -430,9 +448,9 @@ impl<L: ForceLaw> Batch<L> {
         }
     }
 
-    /// Works out what the answers do to the bodies.
+    /// Works out what the answers do to the bodies. Apart from the law, as the kinematics are.
     #[inline(never)]
-    pub(super) fn work_out_reactions<K: ContactKind, S: Space, const COUPLE: bool>(&mut self) {
+    fn work_out_reactions<K: ContactKind, S: Space, const COUPLE: bool>(&mut self) {
         for n in 0..self.count.min(BATCH_SIZE) {
             let normal = S::flattened(self.towards.get(n));
             let mut answer = ContactForce::new(self.force[n], S::flattened(self.push.get(n)));
@@ -448,9 +466,7 @@ impl<L: ForceLaw> Batch<L> {
     }
 
     /// Has `law` answer once more where bodies may have met or may part within the step.
-    /// `acceleration` is that of a contact's first centre relative to its second body, as it was
-    /// evaluated last (m/s^2).
-    pub(super) fn correct_onsets<K: ContactKind, S: Space, const END: bool>(
+    fn correct_onsets<K: ContactKind, S: Space, const END: bool>(
         &mut self,
         law: &L,
         only: Option<&L::Coefficients>,

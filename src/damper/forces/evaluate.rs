@@ -226,22 +226,15 @@ fn evaluate_pairs<C: Cavity, L: ForceLaw, S: Space, const END: bool>(
     advanced: &mut [ContactMemory<L>],
     batch: &mut Batch<L>,
 ) {
-    let bodies = run.bodies;
-    batch.gather_pairs::<C, S>(view, bodies);
-    let kinds = (0..bodies.len()).map(|n| run.pair_coefficients(view, n));
-    let (only, time) = (view.coefficients.only_pair(), view.step_time);
-    let memories = (run.memory, &mut *advanced);
-    batch.evaluate::<SpherePair, S, END>(view.law, only, kinds, time, memories);
-    if view.law.corrects_onset() {
-        let acceleration = |n: usize| view.acceleration_of_pair(bodies[n]);
-        let memories = (run.memory, advanced);
-        batch.correct_onsets::<SpherePair, S, END>(view.law, only, time, acceleration, memories);
-    }
-    if only.is_some_and(|only| !view.law.has_couple(only)) {
-        batch.work_out_reactions::<SpherePair, S, false>();
-    } else {
-        batch.work_out_reactions::<SpherePair, S, true>();
-    }
+    batch.gather_pairs::<C, S>(view, run.bodies);
+    batch.evaluate::<SpherePair, S, END>(
+        view.law,
+        view.coefficients.only_pair(),
+        (0..run.bodies.len()).map(|n| run.pair_coefficients(view, n)),
+        view.step_time,
+        (run.memory, advanced),
+        |n| view.acceleration_of_pair(run.bodies[n]),
+    );
 }
 
 /// Has the law answer a run of touching walls.
@@ -252,24 +245,14 @@ fn evaluate_walls<C: Cavity, L: ForceLaw, S: Space, const END: bool>(
     advanced: &mut [ContactMemory<L>],
     batch: &mut Batch<L>,
 ) {
-    let bodies = run.bodies;
-    batch.gather_walls::<C, S>(view, bodies);
-    let kinds = bodies.iter().map(|[index, _]| {
-        let species = view.species[*index as usize];
-        *view.coefficients.wall(species)
-    });
-    let (only, time) = (view.coefficients.only_wall(), view.step_time);
-    let memories = (run.memory, &mut *advanced);
-    batch.evaluate::<SphereWall, S, END>(view.law, only, kinds, time, memories);
-    if view.law.corrects_onset() {
-        let acceleration =
-            |n: usize| view.acceleration_at_wall(bodies[n][0] as usize, bodies[n][1]);
-        let memories = (run.memory, advanced);
-        batch.correct_onsets::<SphereWall, S, END>(view.law, only, time, acceleration, memories);
-    }
-    if only.is_some_and(|only| !view.law.has_couple(only)) {
-        batch.work_out_reactions::<SphereWall, S, false>();
-    } else {
-        batch.work_out_reactions::<SphereWall, S, true>();
-    }
+    batch.gather_walls::<C, S>(view, run.bodies);
+    let indices = run.bodies.iter().map(|[index, _]| *index as usize);
+    batch.evaluate::<SphereWall, S, END>(
+        view.law,
+        view.coefficients.only_wall(),
+        indices.map(|index| *view.coefficients.wall(view.species[index])),
+        view.step_time,
+        (run.memory, advanced),
+        |n| view.acceleration_at_wall(run.bodies[n][0] as usize, run.bodies[n][1]),
+    );
 }

@@ -14,7 +14,7 @@ pub(super) struct Memories<M> {
     /// The candidates that remember something, ascending.
     candidates: Vec<u32>,
     /// What each remembers.
-    memories: Vec<M>,
+    now: Vec<M>,
     /// What contacts will remember at the end of the step.
     next: Vec<M>,
     /// What a run of contacts remembers of which some are new, or follow on others that ended.
@@ -25,7 +25,7 @@ impl<M> Default for Memories<M> {
     fn default() -> Self {
         Self {
             candidates: Vec::new(),
-            memories: Vec::new(),
+            now: Vec::new(),
             next: Vec::new(),
             gathered: Vec::new(),
         }
@@ -74,7 +74,7 @@ impl<M: Copy + Default> Memories<M> {
     pub(super) fn reserve(&mut self, candidates: usize) {
         if Self::ANY {
             make_room(&mut self.candidates, candidates);
-            make_room(&mut self.memories, candidates);
+            make_room(&mut self.now, candidates);
             make_room(&mut self.next, candidates);
             make_room(&mut self.gathered, candidates);
         }
@@ -83,7 +83,7 @@ impl<M: Copy + Default> Memories<M> {
     /// Forgets everything.
     pub(super) fn clear(&mut self) {
         self.candidates.clear();
-        self.memories.clear();
+        self.now.clear();
     }
 
     /// Adds what a candidate remembers that comes later in the list than all before.
@@ -91,9 +91,9 @@ impl<M: Copy + Default> Memories<M> {
     pub(super) fn push(&mut self, candidate: u32, memory: M) {
         let count = self.candidates.len() + 1;
         make_room(&mut self.candidates, count);
-        make_room(&mut self.memories, count);
+        make_room(&mut self.now, count);
         self.candidates.push(candidate);
-        self.memories.push(memory);
+        self.now.push(memory);
     }
 
     /// What candidates remember.
@@ -101,7 +101,7 @@ impl<M: Copy + Default> Memories<M> {
     pub(super) fn reader(&self) -> Reader<'_, M> {
         Reader {
             candidates: &self.candidates,
-            memories: &self.memories,
+            memories: &self.now,
         }
     }
 
@@ -132,19 +132,17 @@ impl<M: Copy + Default> Memories<M> {
         let kept = *place..*place + count;
         if self.candidates.get(kept.clone()) == Some(candidates) {
             *place = kept.end;
-            return (&self.memories[kept], next);
+            return (&self.now[kept], next);
         }
-        let mut reader = Reader {
-            candidates: &self.candidates[*place..],
-            memories: &self.memories[*place..],
-        };
-        self.gathered.clear();
-        self.gathered.extend(
-            candidates
-                .iter()
-                .map(|candidate| reader.of(*candidate).copied().unwrap_or_default()),
-        );
-        *place = self.candidates.len() - reader.candidates.len();
+        fit(&mut self.gathered, count, M::default());
+        let memories = &self.now[..self.candidates.len()];
+        for (memory, candidate) in self.gathered.iter_mut().zip(candidates) {
+            *place += skip(&self.candidates[*place..], *candidate);
+            *memory = match self.candidates.get(*place) {
+                Some(own) if own == candidate => memories[*place],
+                _ => M::default(),
+            };
+        }
         (&self.gathered, next)
     }
 
@@ -154,13 +152,68 @@ impl<M: Copy + Default> Memories<M> {
             make_room(&mut self.candidates, candidates.len());
             self.candidates.clear();
             self.candidates.extend_from_slice(candidates);
-            std::mem::swap(&mut self.memories, &mut self.next);
+            std::mem::swap(&mut self.now, &mut self.next);
         }
     }
 
     /// Memory in bytes that is reserved.
     pub(super) const fn reserved_bytes(&self) -> usize {
-        size_of::<M>() * (self.memories.capacity() + self.next.capacity())
+        size_of::<M>() * (self.now.capacity() + self.next.capacity() + self.gathered.capacity())
             + size_of::<u32>() * self.candidates.capacity()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A step in runs of `size` contacts, in which each advances its memory by one.
+    fn step(memories: &mut Memories<u64>, touching: &[u32], size: usize) -> Vec<u64> {
+        memories.begin(touching.len());
+        let (mut place, mut seen) = (0, Vec::new());
+        for (n, candidates) in touching.chunks(size).enumerate() {
+            let (now, next) = memories.run(candidates, n * size, &mut place);
+            seen.extend_from_slice(now);
+            for (next, now) in next[..now.len()].iter_mut().zip(now) {
+                *next = now + 1;
+            }
+        }
+        memories.end(touching);
+        seen
+    }
+
+    #[test]
+    fn contacts_that_persist_remember_whatever_begins_and_ends_beside_them() {
+        for size in [1, 2, 3, 100] {
+            let mut memories = Memories::default();
+            let mut since = [None; 40];
+            for round in 0..60_u32 {
+                let is_touching = |n: &u32| (n * n + 7 * (round / (1 + n % 5))) % 3 != 0;
+                let touching: Vec<u32> = (0..40).filter(is_touching).collect();
+                let expected: Vec<u64> = touching
+                    .iter()
+                    .map(|n| since[*n as usize].unwrap_or(0))
+                    .collect();
+                assert_eq!(step(&mut memories, &touching, size), expected);
+                let mut reader = memories.reader();
+                for n in 0..40 {
+                    let own = &mut since[n as usize];
+                    *own = is_touching(&n).then(|| own.unwrap_or(0) + 1);
+                    assert_eq!(reader.of(n).copied(), *own);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_has_not_ended_a_step_is_not_remembered() {
+        let mut memories = Memories::default();
+        step(&mut memories, &[1, 4], 8);
+        memories.begin(2);
+        let mut place = 0;
+        let (now, next) = memories.run(&[1, 5], 0, &mut place);
+        assert_eq!(now, [1, 0]);
+        next.fill(9);
+        assert_eq!(step(&mut memories, &[1, 4, 5], 8), [1, 1, 0]);
     }
 }
