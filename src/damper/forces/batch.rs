@@ -148,7 +148,7 @@ impl<'a, S: Space> Columns<'a, S> {
 }
 
 /// What contacts remember, and where it is put what they will at the end of the step.
-type Memories<'a, L> = (&'a [ContactMemory<L>], &'a mut [ContactMemory<L>]);
+type Histories<'a, L> = (&'a [ContactMemory<L>], &'a mut [ContactMemory<L>]);
 
 /// Up to [`BATCH_SIZE`] contacts, all of pairs or all with walls, and what the law answers.
 #[derive(Clone)]
@@ -168,8 +168,11 @@ pub(super) struct Batch<L: ContactLaw> {
     /// Of walls: velocity that they gain along the normal per unit impulse, 1/kg.
     wall_inverse_mass: Column,
     kinds: Vec<L::Coefficients>,
+    /// Normal force, N.
     force: Column,
+    /// Tangential force on the first body, and then the whole force, N.
     push: Lanes,
+    /// Couple on the first body, if the law gives any, and then the torques on both, N m.
     torques: [Lanes; 2],
 }
 
@@ -339,7 +342,7 @@ impl<L: ForceLaw> Batch<L> {
         only: Option<&L::Coefficients>,
         kinds: impl Iterator<Item = L::Coefficients>,
         step_time: StepTime,
-        (memory, advanced): Memories<'_, L>,
+        (memory, advanced): Histories<'_, L>,
         acceleration: impl Fn(usize) -> DVec3,
     ) {
         self.work_out_kinematics::<K, S>();
@@ -372,7 +375,7 @@ impl<L: ForceLaw> Batch<L> {
         law: &L,
         only: &L::Coefficients,
         step_time: StepTime,
-        memories: Memories<'_, L>,
+        memories: Histories<'_, L>,
     ) {
         if law.has_couple(only) {
             self.evaluate_alike::<K, S, END, true>(law, only, step_time, memories);
@@ -394,16 +397,14 @@ impl<L: ForceLaw> Batch<L> {
         law: &L,
         kind: &L::Coefficients,
         step_time: StepTime,
-        (memory, advanced): Memories<'_, L>,
+        (memory, advanced): Histories<'_, L>,
     ) {
         let kind = *kind;
         let count = self.count.min(BATCH_SIZE);
         let (memory, advanced) = (&memory[..count], &mut advanced[..count]);
         for n in 0..count {
-            let answer = self.evaluate_one::<K, S, COUPLE>(law, &kind, n, step_time, &memory[n]);
-            if END {
-                advanced[n] = answer;
-            }
+            let memories = (&memory[n], &mut advanced[n]);
+            self.evaluate_one::<K, S, END, COUPLE>(law, &kind, n, step_time, memories);
         }
     }
 
@@ -412,30 +413,30 @@ impl<L: ForceLaw> Batch<L> {
         &mut self,
         law: &L,
         step_time: StepTime,
-        (memory, advanced): Memories<'_, L>,
+        (memory, advanced): Histories<'_, L>,
     ) {
         for n in 0..self.kinds.len().min(BATCH_SIZE) {
             let kind = self.kinds[n];
-            let answer = self.evaluate_one::<K, S, true>(law, &kind, n, step_time, &memory[n]);
-            if END {
-                advanced[n] = answer;
-            }
+            let memories = (&memory[n], &mut advanced[n]);
+            self.evaluate_one::<K, S, END, true>(law, &kind, n, step_time, memories);
         }
     }
 
     #[inline(always)]
-    fn evaluate_one<K: ContactKind, S: Space, const COUPLE: bool>(
+    fn evaluate_one<K: ContactKind, S: Space, const END: bool, const COUPLE: bool>(
         &mut self,
         law: &L,
         kind: &L::Coefficients,
         n: usize,
         step_time: StepTime,
-        memory: &ContactMemory<L>,
-    ) -> ContactMemory<L> {
+        (memory, advanced): (&ContactMemory<L>, &mut ContactMemory<L>),
+    ) {
         let contact = self.contact::<K, S>(n, step_time);
         let answer = law.force(kind, &contact, memory);
+        if END {
+            *advanced = law.advance(kind, &contact, memory);
+        }
         self.store::<S, COUPLE>(n, &answer);
-        law.advance(kind, &contact, memory)
     }
 
     /// Stores an answer.
@@ -472,7 +473,7 @@ impl<L: ForceLaw> Batch<L> {
         only: Option<&L::Coefficients>,
         step_time: StepTime,
         acceleration: impl Fn(usize) -> DVec3,
-        (memories, advanced): Memories<'_, L>,
+        (memories, advanced): Histories<'_, L>,
     ) {
         for n in 0..self.count.min(BATCH_SIZE) {
             if self.is_near_onset(n, step_time) {
