@@ -81,6 +81,21 @@ pub struct TangentialSpring {
     force: f64,
 }
 
+impl Coefficients {
+    /// The greatest tangential stiffness that a step resolves, in N/m. There is no bound where velocities are not
+    /// predicted: other integrators bear more.
+    #[inline(always)]
+    fn resolved_stiffness(&self, contact: &Contact) -> f64 {
+        let step = 2.0 * contact.correction;
+        let mut resolved = self.resolved;
+        if contact.wall_inverse_mass > 0.0 {
+            let mass = resolved / (GREATEST_TURN * GREATEST_TURN);
+            resolved /= 1.0 + contact.wall_inverse_mass * mass;
+        }
+        resolved * (1.0 / (step * step))
+    }
+}
+
 impl HertzMindlin {
     /// The law for a table of materials, or for one material.
     #[must_use]
@@ -126,11 +141,11 @@ impl HertzMindlin {
     ) -> (ContactForce, TangentialSpring) {
         let (slip, dt) = (T::slip(contact), contact.elapsed);
         let [load, rate] = [memory.load, memory.rate].map(T::from_memory);
+        let stiffness = at_most(
+            coefficients.shear * normal.root,
+            coefficients.resolved_stiffness(contact),
+        );
         // While the overlap grows the load is kept, while it falls the stretch.
-        // Zero, and no bound, where velocities are not predicted: other integrators bear more.
-        let step = 2.0 * contact.correction;
-        let resolved = coefficients.resolved * (1.0 / (step * step));
-        let stiffness = at_most(coefficients.shear * normal.root, resolved);
         let kept = at_most(stiffness / memory.stiffness, 1.0);
         // The trapezoidal rule. A contact that begins has slipped for half of the step on average.
         let half = 0.5 * dt;

@@ -120,15 +120,15 @@ impl NormalForce {
             normal.force = sampled.first(coming, way, part, gain);
             return normal;
         }
-        // A contact ends as it sets in, but that damping fades out smoothly where it never pulls.
-        let leaving = |force: f64| force * h * own.inverse_mass - coming;
-        let mut way = leaving(normal.force) * h;
         if contact.approach_speed() > 0.0 {
             return normal;
         }
+        let leaving = |force: f64| force * h * own.inverse_mass - coming;
+        let speed = leaving(normal.force);
+        let mut way = speed * h;
         if self.ending == Ending::NeverPulling && gain > 0.0 {
             if way > 0.0 && normal.force > 0.0 {
-                let more = sampled.until_cut(leaving(normal.force), way, overlap);
+                let more = sampled.until_cut(speed, way, overlap);
                 normal.force = self.ended(normal.force + more);
             }
             return normal;
@@ -136,6 +136,7 @@ impl NormalForce {
         if overlap > way {
             return normal;
         }
+        // Where velocities are not predicted, the spring alone is made up for.
         if gain == 0.0 {
             let part = overlap / way;
             let more = Exponent::ThreeHalves.sampled(part) - Exponent::ThreeHalves.of(part);
@@ -143,7 +144,7 @@ impl NormalForce {
             normal.force = self.ended(normal.force + spring);
             return normal;
         }
-        // A pull slows the bodies down, and so its end depends on the pull.
+        // A pull ends as a contact sets in. It slows the bodies down, and so its end depends on it.
         let speed = contact.approach_speed() + before * gain;
         for _ in 0..ENDINGS {
             let part = at_most(overlap / way, 1.0);

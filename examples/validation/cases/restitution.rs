@@ -354,6 +354,14 @@ fn free_box() -> Vec<Case> {
                     0.0,
                     gains.fold(f64::NEG_INFINITY, f64::max),
                 ));
+                let law = HertzMindlin::new(acrylic(e, 0.5)).damping(damping);
+                let gains = (0..8).map(|n| gain_on_free_box(&law, ratio, f64::from(n) / 8.0));
+                cases.push(Case::bounded(
+                    format!("{damping:?}, ball {ratio} of the box, e {e}, tangential spring: gain"),
+                    CLAUSIUS,
+                    0.0,
+                    gains.fold(f64::NEG_INFINITY, f64::max),
+                ));
             }
             for (steps, mean) in [(6.0, 0.007), (100.0, 5e-4)] {
                 let found = on_free_box(&law, ratio, asked, steps);
