@@ -222,12 +222,10 @@ impl NormalForce {
         // Rounding can leave touching bodies with an overlap of zero, or a hair less.
         let overlap = at_least(contact.overlap, f64::MIN_POSITIVE);
         let root = overlap.sqrt();
-        let quarter = root.sqrt();
-        let shape = quarter
-            * match self.damping {
-                Damping::Viscoelastic => quarter,
-                Damping::Tsuji => 1.0,
-            };
+        let shape = match self.damping {
+            Damping::Viscoelastic => root,
+            Damping::Tsuji => root.sqrt(),
+        };
         let resistance = coefficients.damping * shape;
         let spring = coefficients.stiffness * overlap * root;
         let gain = coefficients.inverse_mass * contact.correction;
