@@ -188,7 +188,7 @@ mod tests {
             let mut memories = Memories::default();
             let mut since = [None; 40];
             for round in 0..60_u32 {
-                let is_touching = |n: &u32| (n * n + 7 * (round / (1 + n % 5))) % 3 != 0;
+                let is_touching = |n: &u32| !(n * n + 7 * (round / (1 + n % 5))).is_multiple_of(3);
                 let touching: Vec<u32> = (0..40).filter(is_touching).collect();
                 let expected: Vec<u64> = touching
                     .iter()
