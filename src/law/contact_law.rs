@@ -55,7 +55,8 @@ pub trait ContactLaw: Sync {
 /// 1. [`force`](Self::force) is called for touching bodies alone (overlap > 0). It answers with the
 ///    force on the first body; the engine turns it into opposite forces, and into torques at
 ///    levers that sum to the distance of the centres (friction keeps angular momentum). It must
-///    be a function of its arguments: same arguments, same bits.
+///    be a function of its arguments: same arguments, same bits. Where bodies move in a plane it may leave out
+///    what is zero there ([`Contact::planar`]).
 /// 2. A law whose contacts have a past names it as [`Memory`](Self::Memory). A contact starts with
 ///    the default; [`advance`](Self::advance) is called once per accepted step for each contact
 ///    that touches, and a contact that separates forgets. A law without memory uses `()` and pays

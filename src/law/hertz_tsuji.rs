@@ -50,9 +50,9 @@ use crate::numbers::at_least;
 /// coarse as the paper's realises 0.72 where 0.75 was asked for.)
 ///
 /// Bodies meet and part in the midst of a step. What evaluations a step apart miss of the force there
-/// is made up for by the first of them (by the last, of the spring, and of a pull), so that impacts are
-/// of second order in the step whatever its phase, and a step as coarse as above leaves the energy
-/// right. What steps are worth is said in [`guide::trust`](crate::guide::trust#steps-to-a-contact).
+/// is made up for by the first of them, and by the last before the force ends, be it cut off or a pull. So
+/// impacts are of second order in the step whatever its phase, and a step as coarse as above leaves the
+/// energy right. What steps are worth is said in [`guide::trust`](crate::guide::trust#steps-to-a-contact).
 ///
 /// # Walls
 /// At a wall `m*` is the effective mass of the particle and the container, as far as the mount lets it
