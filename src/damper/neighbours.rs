@@ -28,6 +28,7 @@ pub(crate) use columns::make_room;
 pub(crate) use detection::Detectors;
 pub(crate) use history::ContactRecord;
 pub(crate) use list::{NeighbourList, Run};
+pub(crate) use memories::LONGEST_RUN;
 
 /// The broad and the narrow phase, and what they have found.
 #[derive(Clone)]

@@ -11,6 +11,7 @@ use glam::DVec3;
 
 use crate::cavity::Cavity;
 use crate::contact::{Contact, ContactForce, Onset};
+use crate::damper::neighbours::LONGEST_RUN;
 use crate::damper::state::{
     Space, StateView, StepTime, force_and_torques, levers, normal_and_overlap, surface_velocity,
 };
@@ -50,7 +51,7 @@ impl ContactKind for SphereFixedWall {
 }
 
 /// How many contacts are side by side at the most.
-pub(super) const BATCH_SIZE: usize = 32;
+pub(super) const BATCH_SIZE: usize = LONGEST_RUN;
 
 type Column = [f64; BATCH_SIZE];
 

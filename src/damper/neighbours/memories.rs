@@ -32,6 +32,9 @@ impl<M> Default for Memories<M> {
     }
 }
 
+/// How many contacts make a run at the most.
+pub(crate) const LONGEST_RUN: usize = 32;
+
 /// Reads what candidates remember, in ascending order.
 #[derive(Debug)]
 pub(crate) struct Reader<'a, M> {
@@ -76,7 +79,7 @@ impl<M: Copy + Default> Memories<M> {
             make_room(&mut self.candidates, candidates);
             make_room(&mut self.now, candidates);
             make_room(&mut self.next, candidates);
-            make_room(&mut self.gathered, candidates);
+            make_room(&mut self.gathered, candidates.min(LONGEST_RUN));
         }
     }
 
