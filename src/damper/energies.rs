@@ -134,9 +134,7 @@ fn pair<C: Cavity, L: ForceLaw>(
     let velocity = surface_velocity::<Volume>(normal, towards, spins, levers(radii, overlap));
     let mut contact = Contact::new(normal, overlap, velocity);
     contact.spins = spins;
-    let [own, other] = bodies.map(|index| view.species[index as usize]);
-    let kind = view.coefficients.pair(own, other, list.prepared(candidate));
-    (kind, contact)
+    (list.pair_coefficients(view, bodies, candidate), contact)
 }
 
 fn wall<C: Cavity, L: ForceLaw>(

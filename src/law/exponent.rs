@@ -11,7 +11,7 @@ pub(super) enum Exponent {
 impl Exponent {
     /// Exponent p, and p (p-1) (p-2)/720.
     #[inline]
-    pub(super) const fn constants(self) -> (f64, f64) {
+    const fn constants(self) -> (f64, f64) {
         match self {
             Self::Quarter => (0.25, 0.328_125 / 720.0),
             Self::Half => (0.5, 0.375 / 720.0),
@@ -27,6 +27,16 @@ impl Exponent {
             Self::Half => root,
             Self::ThreeHalves => base * root,
         }
+    }
+
+    /// Integral of t^p from 0 to 1.
+    pub(super) fn integral(self) -> f64 {
+        1.0 / (self.constants().0 + 1.0)
+    }
+
+    /// What t^p at `part` of a step is short of that which [`sampled`](Self::sampled) tells.
+    pub(super) fn missed(self, part: f64) -> f64 {
+        self.sampled(part) - self.of(part)
     }
 
     /// What the evaluation at `part` of a step (0 to 1) after the touch has to give for t^p, t in

@@ -68,11 +68,11 @@ impl Sampled {
         if rest > 1.0 || part > rest + 1.0 {
             return 0.0;
         }
-        let missed = |power: Exponent| power.of(way) * (power.sampled(part) - power.of(part));
+        let missed = |power: Exponent| power.of(way) * power.missed(part);
         let spring = Exponent::ThreeHalves;
         // Sampled to the end of the overlap; but from the cut on there is no pull.
         stiffness * missed(spring) - damping * speed * missed(power)
-            + stiffness * spring.of(cut) * rest * (1.0 / (power.constants().0 + 1.0) - 0.4)
+            + stiffness * spring.of(cut) * rest * (power.integral() - spring.integral())
     }
 
     /// The first force of a contact. `gain` is the speed that a force takes away until the end of the
@@ -138,10 +138,9 @@ impl NormalForce {
         }
         // Where velocities are not predicted, the spring alone is made up for.
         if gain == 0.0 {
-            let part = overlap / way;
-            let more = Exponent::ThreeHalves.sampled(part) - Exponent::ThreeHalves.of(part);
-            let spring = own.stiffness * Exponent::ThreeHalves.of(way) * more;
-            normal.force = self.ended(normal.force + spring);
+            let spring = Exponent::ThreeHalves;
+            let more = own.stiffness * spring.of(way) * spring.missed(overlap / way);
+            normal.force = self.ended(normal.force + more);
             return normal;
         }
         // A pull ends as a contact sets in. It slows the bodies down, and so its end depends on it.

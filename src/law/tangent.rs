@@ -81,8 +81,8 @@ impl Tangent for DVec3 {
 impl Tangent for f64 {
     #[inline(always)]
     fn slip(contact: &Contact) -> Self {
-        let (normal, velocity) = (contact.normal, contact.velocity);
-        normal.x * velocity.y - normal.y * velocity.x
+        let [normal, velocity] = [contact.normal, contact.velocity].map(DVec3::truncate);
+        normal.perp_dot(velocity)
     }
 
     #[inline(always)]
@@ -97,7 +97,7 @@ impl Tangent for f64 {
 
     #[inline(always)]
     fn in_space(self, contact: &Contact) -> DVec3 {
-        DVec3::new(-contact.normal.y * self, contact.normal.x * self, 0.0)
+        (contact.normal.truncate().perp() * self).extend(0.0)
     }
 
     #[inline(always)]

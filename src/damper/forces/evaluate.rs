@@ -87,11 +87,19 @@ impl<L: ForceLaw> BlockForces<L> {
         observer: &mut dyn Observer,
     ) -> bool {
         self.batch.begin_pairs(view.coefficients.only_radius());
+        for list in [&mut block.pairs, &mut block.halo, &mut block.walls] {
+            list.begin_runs();
+        }
         let deepest = [
             self.add_pairs::<C, S, END>(block, view, &mut sums, observer),
             self.add_halo::<C, S, END>(block, view, &mut sums, observer),
             self.add_walls::<C, S, END>(block, view, &mut sums, observer),
         ];
+        if END {
+            for list in [&mut block.pairs, &mut block.halo, &mut block.walls] {
+                list.advance_memories();
+            }
+        }
         block.largest_overlap = deepest.into_iter().fold(0.0, f64::max);
         sums.accelerate(view, block.indices.clone(), gravity)
     }
@@ -106,10 +114,9 @@ impl<L: ForceLaw> BlockForces<L> {
         observer: &mut dyn Observer,
     ) -> f64 {
         let (list, batch) = (&mut block.pairs, &mut *self.batch);
-        let (mut deepest, mut place) = (0.0_f64, 0);
-        list.begin_runs();
+        let mut deepest = 0.0_f64;
         for run in runs(list.contacts.len()) {
-            let (run, advanced) = list.run(run, &mut place);
+            let (run, advanced) = list.run(run);
             evaluate_pairs::<C, L, S, END>(view, &run, advanced, batch);
             deepest = deepest.max(batch.largest_overlap());
             let bodies = side_by_side(run.bodies);
@@ -122,9 +129,6 @@ impl<L: ForceLaw> BlockForces<L> {
             if END && observer.wants_contacts() {
                 report_pairs::<C, L, S>(view, &run, batch, observer);
             }
-        }
-        if END {
-            list.advance_memories();
         }
         deepest
     }
@@ -139,10 +143,9 @@ impl<L: ForceLaw> BlockForces<L> {
         observer: &mut dyn Observer,
     ) -> f64 {
         let (list, batch) = (&mut block.halo, &mut *self.batch);
-        let (mut deepest, mut place) = (0.0_f64, 0);
-        list.begin_runs();
+        let mut deepest = 0.0_f64;
         for run in runs(list.contacts.len()) {
-            let (run, advanced) = list.run(run, &mut place);
+            let (run, advanced) = list.run(run);
             evaluate_pairs::<C, L, S, END>(view, &run, advanced, batch);
             deepest = deepest.max(batch.largest_overlap());
             for (n, [i, j]) in run.bodies.iter().enumerate() {
@@ -164,9 +167,6 @@ impl<L: ForceLaw> BlockForces<L> {
                 report_pairs::<C, L, S>(view, &run, batch, observer);
             }
         }
-        if END {
-            list.advance_memories();
-        }
         deepest
     }
 
@@ -181,10 +181,9 @@ impl<L: ForceLaw> BlockForces<L> {
     ) -> f64 {
         let (list, batch) = (&mut block.walls, &mut *self.batch);
         let position = S::rows(view.position.flat());
-        let (mut deepest, mut place) = (0.0_f64, 0);
-        list.begin_runs();
+        let mut deepest = 0.0_f64;
         for run in runs(list.contacts.len()) {
-            let (run, advanced) = list.run(run, &mut place);
+            let (run, advanced) = list.run(run);
             evaluate_walls::<C, L, S, END>(view, &run, advanced, batch);
             deepest = deepest.max(batch.largest_overlap());
             let bodies = side_by_side(run.bodies);
@@ -204,9 +203,6 @@ impl<L: ForceLaw> BlockForces<L> {
             if END && observer.wants_contacts() {
                 report_walls::<C, L, S>(view, &run, batch, observer);
             }
-        }
-        if END {
-            list.advance_memories();
         }
         deepest
     }

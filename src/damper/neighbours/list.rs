@@ -9,6 +9,7 @@ use super::columns::make_room;
 use super::contacts::Contacts;
 use super::history::ContactRecord;
 use super::memories::{Memories, Reader};
+use crate::cavity::Cavity;
 use crate::damper::state::{Coefficients, StateView};
 use crate::law::{ContactLaw, ContactMemory, LawError};
 
@@ -38,14 +39,13 @@ pub(crate) struct Run<'a, L: ContactLaw> {
 impl<L: ContactLaw> Run<'_, L> {
     /// The coefficients of a pair.
     #[inline(always)]
-    pub(crate) fn pair_coefficients<C>(
+    pub(crate) fn pair_coefficients<C: Cavity>(
         &self,
         view: &StateView<'_, C, L>,
         n: usize,
     ) -> L::Coefficients {
-        let [first, second] = self.bodies[n].map(|index| view.species[index as usize]);
         let own = self.prepared.get(self.candidates[n] as usize);
-        view.coefficients.pair(first, second, own)
+        view.pair_coefficients(self.bodies[n], own)
     }
 }
 
@@ -189,15 +189,13 @@ impl<L: ContactLaw> NeighbourList<L> {
 
     /// The coefficients of two particles that are a candidate.
     #[inline(always)]
-    pub(crate) fn pair_coefficients<C>(
+    pub(crate) fn pair_coefficients<C: Cavity>(
         &self,
         view: &StateView<'_, C, L>,
         bodies: [u32; 2],
         candidate: u32,
     ) -> L::Coefficients {
-        let [first, second] = bodies.map(|index| view.species[index as usize]);
-        view.coefficients
-            .pair(first, second, self.prepared(candidate))
+        view.pair_coefficients(bodies, self.prepared(candidate))
     }
 
     /// What candidates remember, to be read in their order.
@@ -224,15 +222,11 @@ impl<L: ContactLaw> NeighbourList<L> {
     }
 
     /// The next of the runs that the contacts are evaluated in, and where it is put what each will remember at the
-    /// end of the step. `place` is how many memories belong to contacts before, and is zero at first.
+    /// end of the step.
     #[inline(always)]
-    pub(crate) fn run(
-        &mut self,
-        run: Range<usize>,
-        place: &mut usize,
-    ) -> (Run<'_, L>, &mut [ContactMemory<L>]) {
+    pub(crate) fn run(&mut self, run: Range<usize>) -> (Run<'_, L>, &mut [ContactMemory<L>]) {
         let candidates = &self.contacts.candidates()[run.clone()];
-        let (memory, advanced) = self.memories.run(candidates, run.start, place);
+        let (memory, advanced) = self.memories.run(candidates, run.start);
         let run = Run {
             bodies: &self.contacts.bodies()[run],
             candidates,

@@ -19,6 +19,8 @@ pub(super) struct Memories<M> {
     next: Vec<M>,
     /// What a run of contacts remembers of which some are new, or follow on others that ended.
     gathered: Vec<M>,
+    /// How many of the candidates belong to the runs so far.
+    place: usize,
 }
 
 impl<M> Default for Memories<M> {
@@ -28,6 +30,7 @@ impl<M> Default for Memories<M> {
             now: Vec::new(),
             next: Vec::new(),
             gathered: Vec::new(),
+            place: 0,
         }
     }
 }
@@ -112,18 +115,13 @@ impl<M: Copy + Default> Memories<M> {
     #[inline(always)]
     pub(super) fn begin(&mut self, count: usize) {
         fit(&mut self.next, count, M::default());
+        self.place = 0;
     }
 
-    /// What contacts that follow on one another remember, whose `candidates` are from `start` on among those of all
-    /// contacts; and where it is put what they will remember. `place` is how many memories belong to contacts
-    /// before.
+    /// What the contacts of the next run remember, whose `candidates` are from `start` on among those of all contacts;
+    /// and where it is put what they will remember.
     #[inline(always)]
-    pub(super) fn run(
-        &mut self,
-        candidates: &[u32],
-        start: usize,
-        place: &mut usize,
-    ) -> (&[M], &mut [M]) {
+    pub(super) fn run(&mut self, candidates: &[u32], start: usize) -> (&[M], &mut [M]) {
         let count = candidates.len();
         let next = &mut self.next[start..start + count];
         if !Self::ANY {
@@ -131,18 +129,18 @@ impl<M: Copy + Default> Memories<M> {
             return (&self.gathered[..count], next);
         }
         let first = candidates.first().copied().unwrap_or(0);
-        *place += skip(&self.candidates[*place..], first);
-        let kept = *place..*place + count;
+        self.place += skip(&self.candidates[self.place..], first);
+        let kept = self.place..self.place + count;
         if self.candidates.get(kept.clone()) == Some(candidates) {
-            *place = kept.end;
+            self.place = kept.end;
             return (&self.now[kept], next);
         }
         fit(&mut self.gathered, count, M::default());
         let memories = &self.now[..self.candidates.len()];
         for (memory, candidate) in self.gathered.iter_mut().zip(candidates) {
-            *place += skip(&self.candidates[*place..], *candidate);
-            *memory = match self.candidates.get(*place) {
-                Some(own) if own == candidate => memories[*place],
+            self.place += skip(&self.candidates[self.place..], *candidate);
+            *memory = match self.candidates.get(self.place) {
+                Some(own) if own == candidate => memories[self.place],
                 _ => M::default(),
             };
         }
@@ -173,9 +171,9 @@ mod tests {
     /// A step in runs of `size` contacts, in which each advances its memory by one.
     fn step(memories: &mut Memories<u64>, touching: &[u32], size: usize) -> Vec<u64> {
         memories.begin(touching.len());
-        let (mut place, mut seen) = (0, Vec::new());
+        let mut seen = Vec::new();
         for (n, candidates) in touching.chunks(size).enumerate() {
-            let (now, next) = memories.run(candidates, n * size, &mut place);
+            let (now, next) = memories.run(candidates, n * size);
             seen.extend_from_slice(now);
             for (next, now) in next[..now.len()].iter_mut().zip(now) {
                 *next = now + 1;
@@ -213,8 +211,7 @@ mod tests {
         let mut memories = Memories::default();
         step(&mut memories, &[1, 4], 8);
         memories.begin(2);
-        let mut place = 0;
-        let (now, next) = memories.run(&[1, 5], 0, &mut place);
+        let (now, next) = memories.run(&[1, 5], 0);
         assert_eq!(now, [1, 0]);
         next.fill(9);
         assert_eq!(step(&mut memories, &[1, 4, 5], 8), [1, 1, 0]);

@@ -67,6 +67,17 @@ impl<C: Cavity, L: ContactLaw> StateView<'_, C, L> {
         }
     }
 
+    /// The coefficients of two particles; `own` are those of the pair if the law was asked pair by pair.
+    #[inline(always)]
+    pub(crate) fn pair_coefficients(
+        &self,
+        bodies: [u32; 2],
+        own: Option<&L::Coefficients>,
+    ) -> L::Coefficients {
+        let [first, second] = bodies.map(|index| self.species[index as usize]);
+        self.coefficients.pair(first, second, own)
+    }
+
     /// Number of the compartment that a particle is in.
     #[inline(always)]
     pub(crate) fn compartment_of(&self, index: u32) -> usize {
